@@ -1,0 +1,7 @@
+//! The pure core of voltour: a scenario in, a checked charging tour out.
+
+pub mod coverage;
+pub mod plan;
+pub mod scenario;
+pub mod stop;
+pub mod tolerance;

@@ -1,0 +1,1 @@
+//! The voltour service.
