@@ -1,7 +1,10 @@
 //! The pure core of voltour: a scenario in, a checked charging tour out.
 
 pub mod coverage;
+pub mod instance;
 pub mod plan;
 pub mod scenario;
+pub mod solvers;
 pub mod stop;
 pub mod tolerance;
+pub mod tour;
