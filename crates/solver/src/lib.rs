@@ -1,5 +1,6 @@
 //! The pure core of voltour: a scenario in, a checked charging tour out.
 
+pub mod check;
 pub mod coverage;
 pub mod instance;
 pub mod plan;
