@@ -14,6 +14,8 @@ use crate::scenario::Point;
 
 /// Metres: faces of which every border piece is shorter are ignored.
 const LEAST_PIECE: f64 = 1e-9;
+/// Metres: a deeper witness ends the search; shallower ones may just have missed a border.
+const DEEP_ENOUGH: f64 = 1e-6;
 /// From one probing circle to the next smaller one.
 const SHRINK: f64 = 1.0 / 8.0;
 /// In place of a set.
@@ -128,7 +130,7 @@ impl Faces {
         }
     }
 
-    /// Probes the vertices of which a claim has no witness yet, on circles that shrink.
+    /// Probes the vertices of which a claim has no good witness yet, on circles that shrink.
     fn try_sectors(&mut self, curves: &Curves, around: &[Surroundings]) {
         let mut sectors = Sectors::default();
         for claim in std::mem::take(&mut self.claims) {
@@ -147,8 +149,8 @@ impl Faces {
     }
 
     fn is_open(&self, claim: &Claim) -> bool {
-        let open = |&id: &u32| id != NONE && self.faces[id as usize].witness.is_none();
-        claim.sets.iter().any(open)
+        let shallow = |face: &Face| face.witness.is_none_or(|witness| witness.depth < DEEP_ENOUGH);
+        claim.sets.iter().any(|&id| id != NONE && shallow(&self.faces[id as usize]))
     }
 
     /// Takes back the sets whose vertices all lie within the least border piece of each other.
