@@ -5,7 +5,7 @@ use crate::scenario::Objective;
 use crate::tour::{Run, Tour};
 
 /// A tour and how far each demand is met.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub struct Partial {
     /// The tour.
     pub tour: Tour,

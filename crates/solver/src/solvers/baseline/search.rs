@@ -150,7 +150,7 @@ impl<'a, 'b> Search<'a, 'b> {
         }
         let mut pool = removed.to_vec();
         for &candidate in removed {
-            pool.extend(self.near.of(self.instance, candidate).iter().take(12));
+            pool.extend(self.near.of(self.instance, candidate).iter().take(6));
         }
         pool.sort_unstable();
         pool.dedup();
