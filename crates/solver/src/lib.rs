@@ -3,6 +3,7 @@
 pub mod check;
 pub mod coverage;
 pub mod instance;
+pub mod local_search;
 pub mod plan;
 pub mod scenario;
 pub mod solvers;

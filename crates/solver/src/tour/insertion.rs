@@ -34,6 +34,36 @@ impl Tour {
         instance.keeps_limits(&end).then_some(end)
     }
 
+    /// The end of the tour in which `stops` stand in place of as many from position `from` on; `None` if
+    /// that breaks a limit.
+    pub fn rearranged(&self, instance: &Instance<'_>, from: usize, stops: &[u32]) -> Option<Run> {
+        let until = from + stops.len();
+        if instance.untimed {
+            let edges = |stops: &[u32]| {
+                let mut here = self.place_before(instance, from);
+                let mut metres = 0.0;
+                for &next in stops {
+                    metres += instance.distance_m(here, next as usize);
+                    here = next as usize;
+                }
+                metres + instance.distance_m(here, self.place(instance, until))
+            };
+            let metres = edges(stops) - edges(&self.order()[from..until]);
+            let mut end = *self.finished();
+            end.distance_m += metres;
+            end.arrive_s += metres / instance.scenario.charger.speed_mps;
+            return instance.keeps_limits(&end).then_some(end);
+        }
+        let mut run = *self.before(from);
+        for &next in stops {
+            run = instance.step(&run, next);
+            if !instance.in_time(&run) {
+                return None;
+            }
+        }
+        self.resume(instance, &run, until)
+    }
+
     /// What it takes to put a candidate before `position`; `None` if that breaks a limit.
     pub fn insertion(
         &self,

@@ -2,7 +2,8 @@
 
 use crate::instance::Instance;
 use crate::scenario::Objective;
-use crate::solvers::partial::{Partial, effort, gain};
+use crate::local_search::effort;
+use crate::solvers::partial::{Partial, gain};
 
 /// A missing cover begins at so many scales.
 const FIRST_WEIGHT: f64 = 3.0;

@@ -8,7 +8,7 @@ use rand::seq::SliceRandom;
 use rand_pcg::Pcg64Mcg;
 
 use super::cost::Cost;
-use super::neighbours::Neighbours;
+use crate::local_search::Neighbours;
 use crate::instance::Instance;
 use crate::solvers::grow::{Rule, grow};
 use crate::solvers::partial::{Partial, gain};
@@ -19,7 +19,7 @@ const BLINK: f64 = 0.01;
 /// Tours up to this length are searched whole for a place; longer ones next to near stops.
 const WHOLE: usize = 40;
 /// Near stops tried in longer tours.
-const NEAR: usize = 16;
+const NEAR: usize = 10;
 
 /// Fills a ruined tour from `pool`.
 pub fn recreate(
