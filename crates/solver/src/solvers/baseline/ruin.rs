@@ -8,7 +8,7 @@
 use rand::RngExt;
 use rand_pcg::Pcg64Mcg;
 
-use super::neighbours::Neighbours;
+use crate::local_search::Neighbours;
 use crate::instance::Instance;
 use crate::tour::Tour;
 
