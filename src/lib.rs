@@ -3,6 +3,7 @@
 pub mod domain;
 pub mod scheduler;
 pub mod store;
+pub mod svg;
 
 /// The generated gRPC contract. Only the gRPC edge and the clients see it.
 #[allow(missing_docs, clippy::all, clippy::pedantic)]
