@@ -105,7 +105,13 @@ fn border(scene: &Scene<'_>, coverage: &Coverage) -> String {
     for &corner in coverage.field.corners() {
         let place = scene.view.at(corner.into()).map(tenth);
         if place != last {
-            let _ = write!(data, "{}{} {}", if data.is_empty() { 'M' } else { 'L' }, place[0], place[1]);
+            let _ = write!(
+                data,
+                "{}{} {}",
+                if data.is_empty() { 'M' } else { 'L' },
+                place[0],
+                place[1]
+            );
             last = place;
         }
     }
@@ -133,7 +139,8 @@ pub(super) fn witnesses(scene: &Scene<'_>, room: &mut Room) -> Group {
         if seen.len() < MOST_WITNESSES && seen.insert(spot) {
             room.take(Area::around([x, y], 7.0));
             let data = format!("M{x} {y}{}", style::TRIANGLE);
-            group = group.add(Path::new().set("class", class).set("d", data).add(Title::new(words)));
+            group =
+                group.add(Path::new().set("class", class).set("d", data).add(Title::new(words)));
         }
     }
     group

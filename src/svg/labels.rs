@@ -66,7 +66,14 @@ impl Room {
     }
 
     /// Writes a text beside a mark of that radius, if one of eight places is free.
-    pub fn write(&mut self, into: Group, words: &str, class: &str, at: [f64; 2], radius: f64) -> Group {
+    pub fn write(
+        &mut self,
+        into: Group,
+        words: &str,
+        class: &str,
+        at: [f64; 2],
+        radius: f64,
+    ) -> Group {
         const SIZE: f64 = 10.5;
         let wide = text::width(words, SIZE);
         let aside = radius + 3.0;

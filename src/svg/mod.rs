@@ -16,7 +16,4 @@ mod tour;
 mod trails;
 mod view;
 
-#[cfg(test)]
-mod tests;
-
 pub use picture::picture;

@@ -68,7 +68,12 @@ impl Panel {
         self.y += 10.0;
     }
 
-    fn entry(&mut self, symbol: impl Into<Box<dyn ::svg::Node>>, words: &str, count: Option<usize>) {
+    fn entry(
+        &mut self,
+        symbol: impl Into<Box<dyn ::svg::Node>>,
+        words: &str,
+        count: Option<usize>,
+    ) {
         self.add(symbol);
         self.text(words, "row", LEFT + 30.0);
         if let Some(count) = count {
@@ -94,7 +99,10 @@ fn figures(panel: &mut Panel, scene: &Scene<'_>) {
     panel.heading("PLAN");
     panel.figure(name, value(plan.objective));
     if let Some(bound) = plan.bound {
-        panel.figure("Proven bound", format!("{sign} {}{}", value(bound), gap(plan.objective, bound)));
+        panel.figure(
+            "Proven bound",
+            format!("{sign} {}{}", value(bound), gap(plan.objective, bound)),
+        );
     }
     if scene.scenario.objective != Objective::MinDistance {
         panel.figure("Distance", metres(plan.distance_m));
@@ -120,7 +128,11 @@ fn figures(panel: &mut Panel, scene: &Scene<'_>) {
 
 fn gap(objective: f64, bound: f64) -> String {
     let gap = (objective - bound).abs() / bound.abs() * 100.0;
-    if gap.is_finite() && gap >= 0.005 { format!(" ({} % gap)", number(gap, 2)) } else { String::new() }
+    if gap.is_finite() && gap >= 0.005 {
+        format!(" ({} % gap)", number(gap, 2))
+    } else {
+        String::new()
+    }
 }
 
 fn legend(panel: &mut Panel, scene: &Scene<'_>) {
@@ -143,7 +155,8 @@ fn legend(panel: &mut Panel, scene: &Scene<'_>) {
         if count > 0 {
             let mark = style::mark(reason);
             let [x, y] = panel.spot();
-            let shape = Path::new().set("class", mark.class).set("d", format!("M{x} {y}{}", mark.shape));
+            let shape =
+                Path::new().set("class", mark.class).set("d", format!("M{x} {y}{}", mark.shape));
             panel.entry(shape, mark.legend, Some(count));
         }
     }
@@ -178,7 +191,8 @@ fn moving(panel: &mut Panel, scene: &Scene<'_>) {
         return;
     }
     let [x, y] = panel.spot();
-    let way = |class: &str| Path::new().set("class", class).set("d", format!("M{} {y}h20", x - 10.0));
+    let way =
+        |class: &str| Path::new().set("class", class).set("d", format!("M{} {y}h20", x - 10.0));
     let met = Group::new().add(way("met")).add(circle([x - 8.0, y], "was", 3.0));
     panel.entry(met, "Way of a sensor until it is met", None);
     let [x, y] = panel.spot();

@@ -102,10 +102,18 @@ fn summary(scene: &Scene<'_>) -> String {
     for violation in &scene.plan.violations {
         match violation {
             Violation::Timespan { limit, needs } => {
-                parts.push(format!("even the empty trip takes {} of {}", duration(*needs), duration(*limit)));
+                parts.push(format!(
+                    "even the empty trip takes {} of {}",
+                    duration(*needs),
+                    duration(*limit)
+                ));
             }
             Violation::Capacity { limit, needs } => {
-                parts.push(format!("even the empty trip costs {} of {}", joules(*needs), joules(*limit)));
+                parts.push(format!(
+                    "even the empty trip costs {} of {}",
+                    joules(*needs),
+                    joules(*limit)
+                ));
             }
             _ => {}
         }

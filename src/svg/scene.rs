@@ -95,7 +95,8 @@ pub(super) fn horizon(scenario: &Scenario, plan: &Plan) -> f64 {
 
 fn points<'a>(scenario: &'a Scenario, plan: &'a Plan) -> impl Iterator<Item = [f64; 2]> + 'a {
     let until = horizon(scenario, plan);
-    let charger = [scenario.charger.start_m, scenario.charger.end_m].into_iter().map(<[f64; 2]>::from);
+    let charger =
+        [scenario.charger.start_m, scenario.charger.end_m].into_iter().map(<[f64; 2]>::from);
     let field = scenario.coverage.iter().flat_map(|c| c.field.corners()).map(|&p| p.into());
     let sensors = scenario.sensors.iter().flat_map(move |sensor| {
         let ways = match &sensor.place {

@@ -70,7 +70,8 @@ fn idle_title(sensor: &Sensor) -> String {
 fn unserved_title(sensor: &Sensor, request: Option<&Request>, why: &str) -> String {
     let mut words = format!("{}\nnot served: {}", clean(&sensor.id), why.to_lowercase());
     if let Some(request) = request {
-        let _ = write!(words, "\n{} of {} left", joules(request.residual_j), joules(sensor.battery_j));
+        let _ =
+            write!(words, "\n{} of {} left", joules(request.residual_j), joules(sensor.battery_j));
         if let Some(deadline) = request.deadline_s {
             let _ = write!(words, "\ndeadline {}", duration(deadline));
         }

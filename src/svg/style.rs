@@ -74,14 +74,18 @@ pub(super) fn mark(reason: Reason) -> Mark {
     let (class, colour, shape, legend) = match reason {
         Reason::AlreadyCharged => ("charged", TEAL, RING, "Already charged"),
         Reason::NotNeeded => ("unneeded", "#0072b2", RING, "Not needed"),
-        Reason::NotChosen => ("unchosen", "#e69f00", "m0 -6.4l6.4 6.4l-6.4 6.4l-6.4 -6.4z", "Not chosen"),
+        Reason::NotChosen => {
+            ("unchosen", "#e69f00", "m0 -6.4l6.4 6.4l-6.4 6.4l-6.4 -6.4z", "Not chosen")
+        }
         Reason::Unreachable => (
             "unreachable",
             VERMILLION,
             "m0 -2.4l3.4 -3.4l2.4 2.4l-3.4 3.4l3.4 3.4l-2.4 2.4l-3.4 -3.4l-3.4 3.4l-2.4 -2.4l3.4 -3.4l-3.4 -3.4l2.4 -2.4z",
             "Unreachable in time",
         ),
-        Reason::NoCapacity => ("nocapacity", "#cc79a7", "m-4.8 -4.8h9.6v9.6h-9.6z", "Beyond the capacity"),
+        Reason::NoCapacity => {
+            ("nocapacity", "#cc79a7", "m-4.8 -4.8h9.6v9.6h-9.6z", "Beyond the capacity")
+        }
     };
     Mark { class, colour, shape, legend }
 }

@@ -32,7 +32,13 @@ pub(super) fn line(scene: &Scene<'_>) -> Group {
     let mut last = [f64::NAN; 2];
     for place in places.iter().map(|p| p.map(tenth)).filter(|p| p.iter().all(|c| c.is_finite())) {
         if place != last {
-            let _ = write!(data, "{}{} {}", if data.is_empty() { 'M' } else { 'L' }, place[0], place[1]);
+            let _ = write!(
+                data,
+                "{}{} {}",
+                if data.is_empty() { 'M' } else { 'L' },
+                place[0],
+                place[1]
+            );
             last = place;
         }
     }
@@ -185,7 +191,11 @@ pub(super) fn depot(scene: &Scene<'_>, room: &mut Room) -> Group {
     let group = Group::new();
     room.take(Area::around(start, 11.0));
     if start == end {
-        return group.add(ring(start, 12.0, "Start and end")).add(house(start, 0.72, "Start and end"));
+        return group.add(ring(start, 12.0, "Start and end")).add(house(
+            start,
+            0.72,
+            "Start and end",
+        ));
     }
     room.take(Area::around(end, 9.0));
     let dot = Circle::new().set("r", 3.2).set("cx", end[0]).set("cy", end[1]);
@@ -194,7 +204,15 @@ pub(super) fn depot(scene: &Scene<'_>, room: &mut Room) -> Group {
 
 /// The house of the depot, scaled.
 pub(super) fn house([x, y]: [f64; 2], scale: f64, words: &str) -> Path {
-    let corners = [(0.0, -10.0), (10.0, -1.0), (7.0, -1.0), (7.0, 8.0), (-7.0, 8.0), (-7.0, -1.0), (-10.0, -1.0)];
+    let corners = [
+        (0.0, -10.0),
+        (10.0, -1.0),
+        (7.0, -1.0),
+        (7.0, 8.0),
+        (-7.0, 8.0),
+        (-7.0, -1.0),
+        (-10.0, -1.0),
+    ];
     let mut data = String::new();
     for (i, (dx, dy)) in corners.into_iter().enumerate() {
         let letter = if i == 0 { 'M' } else { 'L' };

@@ -28,7 +28,11 @@ pub(super) fn trails(scene: &Scene<'_>) -> Group {
             let [x, y] = scene.view.at(trajectory.at(0.0).into());
             let met = way_to_meeting(scene, trajectory, stop.arrive_s, &mut left);
             group = group.add(Path::new().set("class", "met").set("d", met)).add(
-                Circle::new().set("class", "was").set("cx", tenth(x)).set("cy", tenth(y)).set("r", 3),
+                Circle::new()
+                    .set("class", "was")
+                    .set("cx", tenth(x))
+                    .set("cy", tenth(y))
+                    .set("r", 3),
             );
         }
     }
