@@ -2,6 +2,8 @@
 
 pub mod cli;
 pub mod domain;
+pub mod grpc;
+pub mod listen;
 pub mod scheduler;
 pub mod store;
 
