@@ -1,5 +1,6 @@
 //! The voltour service: takes charging requests, plans tours, keeps both.
 
+pub mod clock;
 pub mod domain;
 pub mod scheduler;
 pub mod store;
