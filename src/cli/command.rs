@@ -5,7 +5,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-use super::{Failure, check, generate, operator, serve, solve};
+use super::{check, generate, operator, serve, solve};
 
 /// Plans the tours of mobile chargers in wireless rechargeable sensor networks.
 #[derive(Debug, Parser)]
@@ -46,6 +46,7 @@ pub enum Command {
     Generate(generate::Args),
     /// Run the scheduling service, or its demonstration
     Serve(serve::Args),
+    /// What an operator does with a running service.
     #[command(flatten)]
     Operator(operator::Command),
 }
