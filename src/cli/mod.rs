@@ -5,9 +5,12 @@ pub mod check;
 mod command;
 pub mod failure;
 pub mod generate;
+mod input;
 pub mod operator;
+mod out;
 pub mod serve;
 pub mod solve;
 
 pub use command::{Cli, Command, run};
 pub use failure::Failure;
+pub use out::say;
