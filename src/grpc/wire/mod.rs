@@ -19,3 +19,6 @@ pub use request::{
     request_to_wire,
 };
 pub use tour::{new_visit, new_visit_to_wire, outcome_to_wire, tour, tour_to_wire, visit_to_wire};
+
+#[cfg(test)]
+mod tests;
