@@ -6,11 +6,17 @@ mod command;
 mod documents;
 pub mod failure;
 pub mod generate;
+mod input;
 pub mod operator;
+<<<<<<< HEAD
 mod pretty;
+=======
+mod out;
+>>>>>>> edge
 pub mod serve;
 pub mod solve;
 mod stopwatch;
 
 pub use command::{Cli, Command, run};
 pub use failure::Failure;
+pub use out::say;
