@@ -1,6 +1,10 @@
 //! The voltour service: takes charging requests, plans tours, keeps both.
 
+pub mod cli;
+pub mod clock;
 pub mod domain;
+pub mod grpc;
+pub mod listen;
 pub mod scheduler;
 pub mod store;
 

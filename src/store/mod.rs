@@ -1,8 +1,10 @@
 //! The store: the only room that sees SQL.
 
+mod open;
 mod page;
 mod read;
 
+pub use open::Store;
 pub use page::{DepartureFilter, Listed, Page, PlanFilter, RequestFilter};
 pub use read::{PlanSummary, Reads};
 

@@ -1,7 +1,11 @@
 //! The pure core of voltour: a scenario in, a checked charging tour out.
 
+pub mod check;
 pub mod coverage;
+pub mod instance;
 pub mod plan;
 pub mod scenario;
+pub mod solvers;
 pub mod stop;
 pub mod tolerance;
+pub mod tour;

@@ -1,0 +1,48 @@
+//! Distances between places at rest: candidates 0 to n - 1, then start (n) and end (n + 1).
+
+use super::Candidate;
+use crate::scenario::{Point, Scenario};
+
+/// Beyond this many candidates Euclidean distances are computed when asked: the points stay in the
+/// cache, a dense matrix would not.
+const DENSE: usize = 1000;
+
+/// Travel distances in metres.
+#[derive(Clone, Debug)]
+pub enum Travel {
+    /// Row to column.
+    Dense {
+        /// Candidates plus two.
+        size: usize,
+        /// Row by row.
+        distance_m: Vec<f64>,
+    },
+    /// Euclidean, on demand.
+    Points(Vec<Point>),
+}
+
+impl Travel {
+    pub(super) fn new(scenario: &Scenario, candidates: &[Candidate]) -> Self {
+        let size = candidates.len() + 2;
+        if let Some(matrix) = &scenario.travel {
+            let rows: Vec<usize> = candidates.iter().map(|c| c.request + 2).chain([0, 1]).collect();
+            let row = |&from: &usize| rows.iter().map(move |&to| matrix.get(from, to));
+            return Self::Dense { size, distance_m: rows.iter().flat_map(row).collect() };
+        }
+        let ends = [scenario.charger.start_m, scenario.charger.end_m];
+        let points: Vec<Point> = candidates.iter().map(|c| c.point).chain(ends).collect();
+        if candidates.len() > DENSE {
+            return Self::Points(points);
+        }
+        let row = |from: &Point| points.iter().map(move |to| (to - from).norm()).collect::<Vec<_>>();
+        Self::Dense { size, distance_m: points.iter().flat_map(|from| row(from)).collect() }
+    }
+
+    /// Distance from one place to another, in metres.
+    pub fn distance_m(&self, from: usize, to: usize) -> f64 {
+        match self {
+            Self::Dense { size, distance_m } => distance_m[from * size + to],
+            Self::Points(points) => (points[to] - points[from]).norm(),
+        }
+    }
+}

@@ -1,0 +1,124 @@
+//! Recreate: who comes into the tour, and where.
+//!
+//! Insertion in an order drawn from several, at the cheapest legal place, with blinks (Christiaens and
+//! Vanden Berghe, 2020); or the step-by-step insertion of [`grow`] with noise.
+
+use rand::RngExt;
+use rand::seq::SliceRandom;
+use rand_pcg::Pcg64Mcg;
+
+use super::cost::Cost;
+use super::neighbours::Neighbours;
+use crate::instance::Instance;
+use crate::solvers::grow::{Rule, grow};
+use crate::solvers::partial::{Partial, gain};
+use crate::tour::Insertion;
+
+/// A place is overlooked this often.
+const BLINK: f64 = 0.01;
+/// Tours up to this length are searched whole for a place; longer ones next to near stops.
+const WHOLE: usize = 40;
+/// Near stops tried in longer tours.
+const NEAR: usize = 16;
+
+/// Fills a ruined tour from `pool`.
+pub fn recreate(
+    instance: &Instance<'_>,
+    partial: &mut Partial,
+    pool: &mut Vec<u32>,
+    cost: &Cost,
+    near: &mut Neighbours,
+    rng: &mut Pcg64Mcg,
+) {
+    pool.retain(|&c| !partial.tour.serves(c) && cost.worth(instance, partial, c) > 0.0);
+    pool.shuffle(rng);
+    let by = rng.random_range(0..8);
+    if by == 0 && pool.len() * partial.tour.len() < 2000 {
+        let power = rng.random_range(0.5..1.5);
+        let must_first = rng.random_bool(0.5);
+        let rule = Rule { weight: &cost.weight, unit: 1.0, must_first, power };
+        grow(instance, partial, pool, &rule, || rng.random_range(0.7..1.3), None);
+        return;
+    }
+    sort(instance, partial, pool, cost, by, rng);
+    for &candidate in pool.iter() {
+        if cost.worth(instance, partial, candidate) <= 0.0 {
+            continue;
+        }
+        if let Some(place) = place(instance, partial, candidate, near, rng) {
+            partial.insert(instance, place.position, candidate);
+        }
+    }
+}
+
+/// Orders the pool, which is in random order before.
+fn sort(
+    instance: &Instance<'_>,
+    partial: &Partial,
+    pool: &mut [u32],
+    cost: &Cost,
+    by: u32,
+    rng: &mut Pcg64Mcg,
+) {
+    let candidate = |c: u32| &instance.candidates[c as usize];
+    let start = instance.scenario.charger.start_m;
+    match by {
+        1 | 2 => {}
+        3 => pool.sort_by(|&a, &b| candidate(a).due_s.total_cmp(&candidate(b).due_s)),
+        4 => sort_down(pool, |c| (candidate(c).point - start).norm()),
+        5 => sort_down(pool, |c| cost.worth(instance, partial, c)),
+        _ => {
+            let noise: f64 = rng.random_range(0.0..0.5);
+            sort_down(pool, |c| {
+                let effort = partial.tour.cheapest(instance, c).map_or(f64::INFINITY, |i| i.effort);
+                let factor = 1.0 + noise * rng.random_range(-1.0..1.0);
+                factor * cost.worth(instance, partial, c) / effort.max(1e-9)
+            });
+        }
+    }
+}
+
+fn sort_down(pool: &mut [u32], mut key: impl FnMut(u32) -> f64) {
+    pool.sort_by_cached_key(|&c| {
+        // Descending, total: the sign bit trick of `total_cmp`.
+        let bits = key(c).to_bits() as i64;
+        std::cmp::Reverse(bits ^ (((bits >> 63) as u64) >> 1) as i64)
+    });
+}
+
+/// The cheapest legal place that is not overlooked.
+fn place(
+    instance: &Instance<'_>,
+    partial: &Partial,
+    candidate: u32,
+    near: &mut Neighbours,
+    rng: &mut Pcg64Mcg,
+) -> Option<Insertion> {
+    let tour = &partial.tour;
+    let mut best: Option<Insertion> = None;
+    let mut attempt = |position: usize, rng: &mut Pcg64Mcg| {
+        if let Some(new) = tour.insertion(instance, position, candidate)
+            && best.is_none_or(|old| new.effort < old.effort)
+            && !rng.random_bool(BLINK)
+        {
+            best = Some(new);
+        }
+    };
+    if tour.len() <= WHOLE {
+        for position in 0..=tour.len() {
+            attempt(position, rng);
+        }
+        return best;
+    }
+    attempt(0, rng);
+    attempt(tour.len(), rng);
+    let beside = near.of(instance, candidate).iter().filter_map(|&other| tour.position(other));
+    for position in beside.take(NEAR) {
+        attempt(position, rng);
+        attempt(position + 1, rng);
+    }
+    if best.is_none() && gain(instance, candidate) <= 0.0 {
+        return tour.cheapest(instance, candidate);
+    }
+    best
+}

@@ -1,0 +1,197 @@
+//! The loop: ruin, recreate, accept.
+
+use rand::RngExt;
+use rand_pcg::Pcg64Mcg;
+
+use super::cost::Cost;
+use super::neighbours::Neighbours;
+use super::recreate::recreate;
+use super::ruin::ruin;
+use crate::instance::Instance;
+use crate::scenario::Objective;
+use crate::solvers::entry::Found;
+use crate::solvers::partial::{Partial, gain};
+use crate::solvers::{Budget, SolverName, enumerate, greedy, shortcut};
+use crate::tour::Value;
+
+/// Temperature at the beginning and the end of an annealing run, in scales of the cost.
+const HOT: f64 = 0.3;
+const COLD: f64 = 0.003;
+/// Iterations of the first annealing run.
+const FIRST_RUN: u64 = 1000;
+/// Pools beyond this size are cut down to the neighbourhood of what left.
+const WIDE_POOL: usize = 100;
+
+/// The best tour found until the budget ends or the search stagnates. `start` is a legal tour to
+/// begin with; it may be empty.
+pub fn solve(
+    instance: &Instance<'_>,
+    start: &[u32],
+    rng: &mut Pcg64Mcg,
+    budget: &mut Budget<'_>,
+) -> Found {
+    let found = |order, iterations| Found { order, solver: SolverName::Baseline, iterations };
+    let before = budget.iterations();
+    if instance.len() <= enumerate::MOST {
+        let order = enumerate::enumerate(instance, budget);
+        let order = order.unwrap_or_else(|| shortcut::legal_start(instance));
+        return found(order, vec![("enumeration".to_owned(), budget.iterations() - before)]);
+    }
+    search(instance, start, rng, budget, &found)
+}
+
+/// [`solve`] without the enumeration of small instances.
+fn search(
+    instance: &Instance<'_>,
+    start: &[u32],
+    rng: &mut Pcg64Mcg,
+    budget: &mut Budget<'_>,
+    found: &dyn Fn(Vec<u32>, Vec<(String, u64)>) -> Found,
+) -> Found {
+    let before = budget.iterations();
+    let mut first = start.to_vec();
+    if first.is_empty() {
+        first = greedy::greedy(instance, budget);
+    }
+    let built = budget.iterations();
+    let mut search = Search::new(instance, Partial::new(instance, &first), rng);
+    search.run(budget);
+    let order = search.best.tour.order().to_vec();
+    let ruined = budget.iterations() - built;
+    let phases = [("construction", built - before), ("ruin and recreate", ruined)];
+    found(order, phases.into_iter().map(|(phase, count)| (phase.to_owned(), count)).collect())
+}
+
+struct Search<'a, 'b> {
+    instance: &'a Instance<'b>,
+    rng: &'a mut Pcg64Mcg,
+    near: Neighbours,
+    cost: Cost,
+    /// Candidates that can be worth something.
+    useful: Vec<u32>,
+    best: Partial,
+    best_value: Value,
+}
+
+impl<'a, 'b> Search<'a, 'b> {
+    fn new(instance: &'a Instance<'b>, first: Partial, rng: &'a mut Pcg64Mcg) -> Self {
+        let in_demand = |c: u32| !instance.demands.of[c as usize].is_empty();
+        let all = 0..instance.len() as u32;
+        Self {
+            near: Neighbours::new(instance),
+            cost: Cost::new(instance, &first),
+            useful: all.filter(|&c| in_demand(c) || gain(instance, c) > 0.0).collect(),
+            best_value: Value::of(instance, &first.tour),
+            best: first,
+            instance,
+            rng,
+        }
+    }
+
+    fn run(&mut self, budget: &mut Budget<'_>) {
+        if self.useful.is_empty() || budget.is_spent() {
+            return;
+        }
+        let mut length = FIRST_RUN;
+        let mut improved = budget.iterations();
+        loop {
+            let mut current = self.best.clone();
+            let mut trial = current.clone();
+            let mut current_cost = self.cost.of(self.instance, &current);
+            for i in 0..length {
+                let share = i as f64 / length as f64;
+                let heat = self.cost.scale * HOT * (COLD / HOT).powf(share);
+                trial.clone_from(&current);
+                self.change(&mut trial);
+                let trial_cost = self.cost.of(self.instance, &trial);
+                let luck = -heat * self.rng.random_range(1e-12..1.0_f64).ln();
+                if trial.tour.is_legal() && trial_cost < current_cost + luck {
+                    std::mem::swap(&mut current, &mut trial);
+                    current_cost = trial_cost;
+                    if self.keep(&current) {
+                        improved = budget.iterations();
+                    }
+                }
+                if current.missing(self.instance) > 0 || i % 64 == 0 {
+                    self.cost.adapt(self.instance, &current);
+                    current_cost = self.cost.of(self.instance, &current);
+                }
+                if !budget.spend() {
+                    return;
+                }
+            }
+            if budget.iterations() - improved > self.patience() {
+                return;
+            }
+            length *= 2;
+        }
+    }
+
+    /// Iterations without improvement after which the search ends.
+    fn patience(&self) -> u64 {
+        let stops = self.best.tour.len() as u64 + 1;
+        500 * stops * stops + 20 * self.useful.len() as u64
+    }
+
+    fn change(&mut self, trial: &mut Partial) {
+        let mut leaves = vec![false; self.instance.len()];
+        let removed = ruin(self.instance, &trial.tour, &mut self.near, self.rng, &mut leaves);
+        trial.remove(self.instance, |c| leaves[c as usize]);
+        let mut pool = self.pool(&removed);
+        recreate(self.instance, trial, &mut pool, &self.cost, &mut self.near, self.rng);
+        if self.instance.scenario.objective == Objective::MinDistance {
+            self.prune(trial);
+        }
+    }
+
+    fn pool(&mut self, removed: &[u32]) -> Vec<u32> {
+        if self.useful.len() <= WIDE_POOL || self.rng.random_bool(0.02) {
+            return self.useful.clone();
+        }
+        let mut pool = removed.to_vec();
+        for &candidate in removed {
+            pool.extend(self.near.of(self.instance, candidate).iter().take(12));
+        }
+        pool.sort_unstable();
+        pool.dedup();
+        pool
+    }
+
+    /// Takes out stops that no demand needs, in random order.
+    fn prune(&mut self, trial: &mut Partial) {
+        let instance = self.instance;
+        let stops = trial.tour.len();
+        let offset = if stops == 0 { 0 } else { self.rng.random_range(0..stops) };
+        let order: Vec<u32> = trial.tour.order().to_vec();
+        for i in 0..stops {
+            let candidate = order[(i + offset) % stops];
+            if !trial.is_needed(instance, candidate) {
+                let length = trial.tour.finished().distance_m;
+                let position = trial.tour.position(candidate);
+                trial.remove(instance, |c| c == candidate);
+                let worse = trial.tour.finished().distance_m > length || !trial.tour.is_legal();
+                if let Some(position) = position.filter(|_| worse) {
+                    trial.insert(instance, position, candidate);
+                }
+            }
+        }
+    }
+
+    /// Keeps a tour that is better than the best.
+    fn keep(&mut self, current: &Partial) -> bool {
+        let missing = if current.missing(self.instance) == 0 {
+            (0, 0)
+        } else if self.best_value.is_feasible() {
+            return false;
+        } else {
+            self.instance.all_demands.missing(|c| current.tour.serves(c))
+        };
+        let value = Value::with_missing(self.instance, &current.tour, missing);
+        let better = value.beats(&self.best_value);
+        if better {
+            self.best_value = value;
+            self.best.clone_from(current);
+        }
+        better
+    }
+}

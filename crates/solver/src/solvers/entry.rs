@@ -1,0 +1,132 @@
+//! [`solve`]: which solver, on which scenario, until when.
+
+use rand_pcg::Pcg64Mcg;
+use rand_pcg::rand_core::SeedableRng;
+
+use super::plan_of::plan_of;
+use super::{Budget, SolverName, auto, baseline, greedy, random};
+use crate::instance::Instance;
+use crate::plan::{Plan, Status};
+use crate::scenario::Scenario;
+use crate::stop::StopRule;
+use crate::tour::{Tour, Value};
+
+/// How to solve.
+pub struct Options<'a> {
+    /// By which solver.
+    pub solver: SolverName,
+    /// Seed of every random choice.
+    pub seed: u64,
+    /// When to end at the latest.
+    pub stop: &'a dyn StopRule,
+}
+
+/// What a solve gave.
+#[derive(Clone, Debug)]
+pub struct Outcome {
+    /// The plan; its `elapsed_s` is 0, for the host knows the time.
+    pub plan: Plan,
+    /// Iterations of each phase, in the order of the phases.
+    pub iterations: Vec<(String, u64)>,
+    /// The solvers that took part and what each found.
+    pub contenders: Vec<Contender>,
+}
+
+/// A solver that took part.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Contender {
+    /// Its name.
+    pub solver: String,
+    /// Value of its tour.
+    pub objective: f64,
+    /// What is known of its tour.
+    pub status: Status,
+    /// Iterations that it did.
+    pub iterations: u64,
+}
+
+/// The solver is not in this version.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("the solver \"{0}\" is not in this version")]
+pub struct Unavailable(pub SolverName);
+
+/// An order of candidates, with the name of the solver that found it.
+pub(super) struct Found {
+    pub order: Vec<u32>,
+    pub solver: SolverName,
+    pub iterations: Vec<(String, u64)>,
+}
+
+/// Solves a scenario. Same scenario, solver, seed and number of iterations: same plan.
+///
+/// # Errors
+/// The solver is not in this version.
+pub fn solve(scenario: &Scenario, options: &Options<'_>) -> Result<Outcome, Unavailable> {
+    let instance = Instance::new(scenario);
+    let mut budget = Budget::new(options.stop);
+    let mut rng = Pcg64Mcg::seed_from_u64(options.seed);
+    let single = |order, phase: &str, budget: &Budget<'_>| Found {
+        order,
+        solver: options.solver,
+        iterations: vec![(phase.to_owned(), budget.iterations())],
+    };
+    let found = match options.solver {
+        SolverName::Auto => auto::auto(&instance, &mut rng, &mut budget),
+        SolverName::Baseline => vec![baseline::solve(&instance, &[], &mut rng, &mut budget)],
+        SolverName::Greedy => {
+            vec![single(greedy::greedy(&instance, &mut budget), "insertion", &budget)]
+        }
+        SolverName::Nearest => vec![single(greedy::nearest(&instance, &mut budget), "walk", &budget)],
+        SolverName::Random => {
+            vec![single(random::random(&instance, &mut rng, &mut budget), "walks", &budget)]
+        }
+        SolverName::Dqn
+        | SolverName::Exact
+        | SolverName::Acs
+        | SolverName::Dp
+        | SolverName::Mst
+        | SolverName::Cmst
+        | SolverName::App => return Err(Unavailable(options.solver)),
+    };
+    Ok(outcome(&instance, &found))
+}
+
+/// The plan of the best tour found, the earlier among equals; each solver is a contender.
+fn outcome(instance: &Instance<'_>, found: &[Found]) -> Outcome {
+    let value = |found: &Found| Value::of(instance, &Tour::new(instance, &found.order));
+    let best = found.iter().min_by(|a, b| value(a).compare(&value(b)));
+    let contender = |found: &Found| {
+        let plan = plan_of(instance, &found.order, found.solver.name());
+        Contender {
+            solver: plan.solver,
+            objective: plan.objective,
+            status: plan.status,
+            iterations: found.iterations.iter().map(|(_, iterations)| iterations).sum(),
+        }
+    };
+    let (order, solver) = best.map_or((&[][..], SolverName::Auto), |f| (&f.order, f.solver));
+    Outcome {
+        plan: plan_of(instance, order, solver.name()),
+        iterations: found.iter().flat_map(|found| found.iterations.clone()).collect(),
+        contenders: found.iter().map(contender).collect(),
+    }
+}
+
+/// The plan of the empty tour, under the name of a solver.
+pub fn empty_plan(scenario: &Scenario) -> Plan {
+    plan_from_order(scenario, &[], SolverName::Greedy.name())
+}
+
+/// The plan of a tour given as request indices in order. Indices of requests that are no candidates
+/// (already charged, or beyond the list) and repetitions are left out. A tour that breaks a constraint
+/// gives a plan whose status is `best_effort`; whether 1 to 3 hold is for the caller to see to.
+pub fn plan_from_order(scenario: &Scenario, order: &[usize], solver: &str) -> Plan {
+    let instance = Instance::new(scenario);
+    let mut candidate_of = vec![None; scenario.requests.len()];
+    for (i, candidate) in (0u32..).zip(&instance.candidates) {
+        candidate_of[candidate.request] = Some(i);
+    }
+    let stops = order.iter().filter_map(|&request| candidate_of.get_mut(request)?.take());
+    let stops: Vec<u32> = stops.collect();
+    plan_of(&instance, &stops, solver)
+}

@@ -1,0 +1,14 @@
+//! `voltour generate`. Draws a random scenario.
+
+use std::process::ExitCode;
+
+use super::Failure;
+
+/// Its arguments.
+#[derive(Debug, clap::Args)]
+pub struct Args {}
+
+/// Runs the command.
+pub fn run(_args: Args) -> Result<ExitCode, Failure> {
+    Err(Failure::other("`voltour generate` is not there yet"))
+}
