@@ -7,6 +7,7 @@ pub mod grpc;
 pub mod listen;
 pub mod scheduler;
 pub mod store;
+pub mod svg;
 
 /// The generated gRPC contract. Only the gRPC edge and the clients see it.
 #[allow(missing_docs, clippy::all, clippy::pedantic)]

@@ -3,11 +3,14 @@
 
 pub mod check;
 mod command;
+mod documents;
 pub mod failure;
 pub mod generate;
 pub mod operator;
+mod pretty;
 pub mod serve;
 pub mod solve;
+mod stopwatch;
 
 pub use command::{Cli, Command, run};
 pub use failure::Failure;

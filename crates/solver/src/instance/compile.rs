@@ -83,7 +83,10 @@ impl<'a> Instance<'a> {
             metric: !moving && scenario.travel.is_none(),
             segments: !moving && affine_energy && !candidates.iter().any(saturates),
             waits,
-            untimed: !moving && !waits && !drains && candidates.iter().all(|c| c.due_s.is_infinite()),
+            untimed: !moving
+                && !waits
+                && !drains
+                && candidates.iter().all(|c| c.due_s.is_infinite()),
             candidates,
             scenario,
         }

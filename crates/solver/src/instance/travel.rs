@@ -34,7 +34,8 @@ impl Travel {
         if candidates.len() > DENSE {
             return Self::Points(points);
         }
-        let row = |from: &Point| points.iter().map(move |to| (to - from).norm()).collect::<Vec<_>>();
+        let row =
+            |from: &Point| points.iter().map(move |to| (to - from).norm()).collect::<Vec<_>>();
         Self::Dense { size, distance_m: points.iter().flat_map(|from| row(from)).collect() }
     }
 

@@ -182,7 +182,8 @@ impl Tour {
         for p in (0..stops - kept).rev() {
             let here = self.order[p];
             if instance.segments {
-                let rest = Segment::stop(instance, here).then(instance, &self.suffix[stops - p - 1]);
+                let rest =
+                    Segment::stop(instance, here).then(instance, &self.suffix[stops - p - 1]);
                 self.suffix.push(rest);
                 self.latest.push(rest.latest_s);
             } else {
@@ -248,7 +249,8 @@ impl Tour {
             let then = self.runs.get(position + 1).unwrap_or(self.finished.as_ref()?).arrive_s;
             (metres, reach_s - then)
         };
-        let effort = effort.per_m * metres + effort.per_s * seconds.max(0.0) + effort.per_j * charge_j;
+        let effort =
+            effort.per_m * metres + effort.per_s * seconds.max(0.0) + effort.per_j * charge_j;
         Some(Insertion { position, effort })
     }
 

@@ -1,0 +1,177 @@
+//! The sets that the faces of the arrangement have, each with the vertices that claim it and the
+//! deepest point known to lie in it. A claim becomes a region only through such a witness.
+
+use std::collections::BTreeMap;
+
+use nalgebra::Vector2;
+
+use super::Region;
+use super::disks::Curves;
+use super::sectors::Sectors;
+use super::sets::Sets;
+use super::surroundings::Surroundings;
+use crate::scenario::Point;
+
+/// Metres: faces of which every border piece is shorter are ignored.
+const LEAST_PIECE: f64 = 1e-9;
+/// From one probing circle to the next smaller one.
+const SHRINK: f64 = 1.0 / 8.0;
+/// In place of a set.
+const NONE: u32 = u32::MAX;
+
+/// A point inside a face, and how far it is from the nearest curve.
+#[derive(Clone, Copy)]
+struct Witness {
+    at: Point,
+    depth: f64,
+}
+
+/// What is known of the faces of one set.
+#[derive(Clone, Default)]
+struct Face {
+    vertices: Vector2<f64>,
+    count: u32,
+    witness: Option<Witness>,
+}
+
+/// A vertex in general position and the sets that its sectors should have.
+struct Claim {
+    vertex: Point,
+    disk: u32,
+    sets: [u32; 4],
+}
+
+/// All faces by their sets of covering disks.
+#[derive(Default)]
+pub(super) struct Faces {
+    sets: Sets,
+    faces: Vec<Face>,
+    claims: Vec<Claim>,
+    set: Vec<u32>,
+}
+
+impl Faces {
+    /// A simple vertex on a disk's circle: its sectors have the covering disks with each choice of
+    /// the touching ones.
+    pub(super) fn claim(&mut self, vertex: Point, disk: u32, sectors: &Sectors) {
+        let mut sets = [NONE; 4];
+        for (choice, claimed) in sets.iter_mut().enumerate().take(1 << sectors.touching.len()) {
+            let chosen = (0..).zip(&sectors.touching).filter(|(bit, _)| choice >> bit & 1 == 1);
+            self.set.clear();
+            self.set.extend_from_slice(&sectors.covering);
+            for (_, &disk) in chosen {
+                let at = self.set.partition_point(|&other| other < disk);
+                self.set.insert(at, disk);
+            }
+            let id = self.sets.intern(&self.set);
+            let face = self.face(id);
+            face.vertices += vertex.coords;
+            face.count += 1;
+            *claimed = id;
+        }
+        self.claims.push(Claim { vertex, disk, sets });
+    }
+
+    /// A point that is known to have this set, and its depth.
+    pub(super) fn witness(&mut self, at: Point, set: &[u32], depth: f64) {
+        let id = self.sets.intern(set);
+        let face = self.face(id);
+        if face.witness.is_none_or(|best| depth > best.depth) {
+            face.witness = Some(Witness { at, depth });
+        }
+    }
+
+    /// Finds a witness for every set that has one; the surroundings are those of the disks.
+    pub(super) fn settle(&mut self, curves: &Curves, around: &[Surroundings]) {
+        self.try_middles(curves, around);
+        self.try_sectors(curves, around);
+        self.drop_specks();
+    }
+
+    /// One region for each set with a witness, in the order in which the sets were found.
+    pub(super) fn into_regions(self, curves: &Curves) -> Vec<Region> {
+        let with_witness =
+            (0..).zip(&self.faces).filter_map(|(id, face)| Some((id, face.witness?)));
+        let region = |(id, witness): (u32, Witness)| Region {
+            covering: curves.disks.sensors(self.sets.get(id)),
+            witness: curves.frame.world(witness.at),
+        };
+        with_witness.map(region).collect()
+    }
+
+    fn face(&mut self, id: u32) -> &mut Face {
+        if self.faces.len() < self.sets.len() {
+            self.faces.resize_with(self.sets.len(), Face::default);
+        }
+        &mut self.faces[id as usize]
+    }
+
+    /// The middle of a face's vertices mostly lies in it, and deep.
+    fn try_middles(&mut self, curves: &Curves, around: &[Surroundings]) {
+        let (mut offsets, mut set) = (Vec::new(), Vec::new());
+        for (id, face) in (0..).zip(&mut self.faces).filter(|(_, face)| face.count > 0) {
+            let middle = Point::from(face.vertices / f64::from(face.count));
+            let middle = curves.frame.representable(middle);
+            let expected = self.sets.get(id);
+            let fewest = expected.iter().map(|&disk| &around[disk as usize]);
+            let depth = match fewest.min_by_key(|near| near.disks.len()) {
+                Some(near) => near.locate(curves, middle, &mut offsets, &mut set),
+                None => {
+                    let near = Surroundings::of_point(curves, middle);
+                    near.locate(curves, middle, &mut offsets, &mut set)
+                }
+            };
+            let best = face.witness.map_or(0.0, |witness| witness.depth);
+            if let Some(depth) = depth.filter(|&depth| set == expected && depth > best) {
+                face.witness = Some(Witness { at: middle, depth });
+            }
+        }
+    }
+
+    /// Probes the vertices of which a claim has no witness yet, on circles that shrink.
+    fn try_sectors(&mut self, curves: &Curves, around: &[Surroundings]) {
+        let mut sectors = Sectors::default();
+        for claim in std::mem::take(&mut self.claims) {
+            let near = &around[claim.disk as usize];
+            if self.is_open(&claim) {
+                sectors.survey(near, claim.vertex);
+                let mut radius = 0.5 * sectors.gap;
+                while self.is_open(&claim) && radius > near.tolerance {
+                    let found = |at, set: &[u32], depth| self.witness(at, set, depth);
+                    sectors.probe(curves, near, claim.vertex, radius, found);
+                    radius *= SHRINK;
+                }
+            }
+            self.claims.push(claim);
+        }
+    }
+
+    fn is_open(&self, claim: &Claim) -> bool {
+        let open = |&id: &u32| id != NONE && self.faces[id as usize].witness.is_none();
+        claim.sets.iter().any(open)
+    }
+
+    /// Takes back the sets whose vertices all lie within the least border piece of each other.
+    fn drop_specks(&mut self) {
+        let shallow = |face: &Face| face.witness.is_some_and(|w| w.depth < LEAST_PIECE);
+        let suspects = (0..).zip(&self.faces).filter(|(_, face)| face.count > 0 && shallow(face));
+        let mut spread: BTreeMap<u32, Option<(Point, Point)>> =
+            suspects.map(|(id, _)| (id, None)).collect();
+        if spread.is_empty() {
+            return;
+        }
+        for claim in &self.claims {
+            for id in &claim.sets {
+                if let Some(spread) = spread.get_mut(id) {
+                    let (low, high) = spread.unwrap_or((claim.vertex, claim.vertex));
+                    *spread = Some((low.inf(&claim.vertex), high.sup(&claim.vertex)));
+                }
+            }
+        }
+        for (id, spread) in spread {
+            if spread.is_some_and(|(low, high)| (high - low).norm() < LEAST_PIECE) {
+                self.faces[id as usize].witness = None;
+            }
+        }
+    }
+}
