@@ -22,9 +22,9 @@ fn already_exists<T: std::fmt::Debug>(answer: Result<T, Status>) {
 }
 
 #[tokio::test]
-async fn put() {
+async fn put_twice() {
     let mut app = TestApp::start().await;
-    let call = PutNetworkRequest { expected_version: Some(0), ..field::put(line(2)) };
+    let call = PutNetworkRequest { expected_version: Some(0), ..put(line(2)) };
     let first = app.networks().put(call.clone()).await.unwrap().into_inner();
     app.put(line(3)).await;
     app.restart().await;
@@ -40,7 +40,7 @@ fn get_network() -> voltour::proto::GetNetworkRequest {
 }
 
 #[tokio::test]
-async fn update_trajectory() {
+async fn update_trajectory_twice() {
     let app = TestApp::start().await;
     app.put(line(2)).await;
     let to = |x_m| SensorTrajectory {
@@ -76,7 +76,7 @@ async fn update_trajectory() {
 }
 
 #[tokio::test]
-async fn submit() {
+async fn submit_twice() {
     let mut app = TestApp::start().await;
     app.put(line(2)).await;
     let call = SubmitRequest { deadline: from_now(600_000), ..request("s1") };
@@ -98,7 +98,7 @@ async fn submit() {
 async fn the_ids_of_networks_are_their_own() {
     let app = TestApp::start().await;
     app.put(line(1)).await;
-    let other = PutNetworkRequest { network_id: "other".into(), ..field::put(line(1)) };
+    let other = PutNetworkRequest { network_id: "other".into(), ..put(line(1)) };
     app.networks().put(other).await.unwrap();
     let call = request("s1");
     let here = app.submit(call.clone()).await;
@@ -107,7 +107,7 @@ async fn the_ids_of_networks_are_their_own() {
 }
 
 #[tokio::test]
-async fn withdraw() {
+async fn withdraw_twice() {
     let mut app = TestApp::start().await;
     app.put(line(2)).await;
     let (one, two) = (app.ask("s1").await, app.ask("s2").await);
@@ -121,7 +121,7 @@ async fn withdraw() {
 }
 
 #[tokio::test]
-async fn announce() {
+async fn announce_twice() {
     let mut app = TestApp::start().await;
     app.put(line(2)).await;
     let call = AnnounceRequest {
@@ -157,7 +157,7 @@ async fn an_announcement_may_be_repeated_when_its_t0_is_long_over() {
 }
 
 #[tokio::test]
-async fn cancel() {
+async fn cancel_twice() {
     let mut app = TestApp::start().await;
     app.put(line(1)).await;
     let asked = app.ask("s1").await;
@@ -182,7 +182,7 @@ async fn cancel() {
 }
 
 #[tokio::test]
-async fn report_visit() {
+async fn report_visit_twice() {
     let mut app = TestApp::start().await;
     app.put(line(2)).await;
     app.ask("s1").await;
@@ -203,7 +203,7 @@ async fn report_visit() {
 }
 
 #[tokio::test]
-async fn complete() {
+async fn complete_twice() {
     let mut app = TestApp::start().await;
     app.put(line(2)).await;
     let asked = app.ask("s1").await;

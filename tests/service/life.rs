@@ -1,6 +1,6 @@
 //! A request's life: open, batched, planned, served; or expired, withdrawn, superseded.
 
-use voltour::proto::{DepartureState, TourState, VisitOutcome};
+use voltour::proto::{DepartureState, ReportVisitRequest, SubmitRequest, TourState, VisitOutcome};
 
 use crate::app::TestApp;
 use crate::calls::{
@@ -13,7 +13,7 @@ use crate::time::{from_now, us};
 async fn a_request_is_planned_and_served() {
     let app = TestApp::start().await;
     app.put(line(3)).await;
-    let asked = field::SubmitRequest { residual_j: Some(20.0), ..request("s2") };
+    let asked = SubmitRequest { residual_j: Some(20.0), ..request("s2") };
     let open = app.submit(asked.clone()).await;
     assert_eq!(open.state, OPEN);
     assert_eq!(open.submitted, Some(asked));
@@ -59,7 +59,7 @@ async fn a_request_whose_deadline_is_before_the_start_expires() {
     let app = TestApp::start().await;
     app.put(line(2)).await;
     // The lead alone is longer.
-    let late = field::SubmitRequest { deadline: from_now(300), ..request("s1") };
+    let late = SubmitRequest { deadline: from_now(300), ..request("s1") };
     let late = app.submit(late).await;
     let fine = app.ask("s2").await;
     let tour = app.drive("A").await;
@@ -119,7 +119,7 @@ async fn a_newer_request_of_a_planned_sensor_waits_for_the_next_departure() {
     let newer = app.ask("s1").await;
     assert_eq!((newer.state, app.state(&planned.id).await), (OPEN, PLANNED));
     // The visit came before the newer request was made, as far as is known from its times.
-    let early = field::ReportVisitRequest {
+    let early = ReportVisitRequest {
         arrived_at: tour.start,
         departed_at: planned.received_at,
         ..field::visit(&tour.id, "s1", VisitOutcome::Failed)
@@ -154,7 +154,7 @@ async fn a_visit_before_the_newer_request_leaves_that_open() {
     let tour = app.drive("A").await;
     let visited_at = from_now(0);
     let newer = app.ask("s1").await;
-    let visit = field::ReportVisitRequest {
+    let visit = ReportVisitRequest {
         arrived_at: visited_at,
         departed_at: visited_at,
         ..field::visit(&tour.id, "s1", VisitOutcome::Charged)

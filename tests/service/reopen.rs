@@ -1,10 +1,11 @@
 //! What a tour leaves unserved is open again: after Complete, after Cancel, and when nothing is heard.
 
-use voltour::proto::{DepartureState, TourState, VisitOutcome};
+use voltour::proto::{AnnounceRequest, DepartureState, TourState, VisitOutcome};
 
 use crate::app::{Settings, TestApp};
 use crate::calls::{OPEN, PLANNED, SERVED, sensors};
 use crate::field::{self, line};
+use crate::time::from_now;
 
 #[tokio::test]
 async fn complete_reopens_what_was_not_charged() {
@@ -62,7 +63,7 @@ async fn cancelling_an_announced_departure_leaves_its_requests_open() {
     app.put(line(1)).await;
     let asked = app.ask("s1").await;
     let announced =
-        field::AnnounceRequest { t0: crate::time::from_now(3_600_000), ..field::departure("A") };
+        AnnounceRequest { t0: from_now(3_600_000), ..field::departure("A") };
     let departure = app.announce(announced).await;
     assert_eq!(departure.state, DepartureState::Announced as i32);
     let departure = app.cancel(&departure.id).await;

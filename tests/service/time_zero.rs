@@ -75,9 +75,8 @@ async fn t0_lies_between_30_seconds_ago_and_7_days_ahead() {
         (400 * DAY_MS, false),
     ] {
         let charger = format!("c{ms}").replace('-', "m");
-        let announced =
-            app.departures().announce(AnnounceRequest { t0: from_now(ms), ..departure(&charger) });
-        match announced.await {
+        let announced = AnnounceRequest { t0: from_now(ms), ..departure(&charger) };
+        match app.departures().announce(announced).await {
             Ok(_) => assert!(fine, "{ms} ms was accepted"),
             Err(refused) => {
                 assert!(!fine, "{ms} ms: {refused}");

@@ -1,7 +1,7 @@
 //! Of NetworkService.
 
 use voltour::proto::{
-    ChargerType, Coverage, GetNetworkRequest, NetworkSpec, Place, Point, PutNetworkRequest,
+    ChargerType, Coverage, GetNetworkRequest, ListNetworksRequest, NetworkSpec, Place, Point, PutNetworkRequest,
     SensorTrajectory, Trajectory, UpdateTrajectoryRequest, Waypoint, place,
 };
 
@@ -117,7 +117,7 @@ async fn put_names_the_field() {
         refused(app.networks().get(GetNetworkRequest { network_id: id }).await, "network_id");
     }
     refused(app.networks().put(PutNetworkRequest { spec: None, ..put(line(1)) }).await, "spec");
-    let listed = app.networks().list(Default::default()).await.unwrap().into_inner();
+    let listed = app.networks().list(ListNetworksRequest::default()).await.unwrap().into_inner();
     assert!(listed.networks.is_empty(), "nothing of a refused call is stored");
 }
 
