@@ -4,7 +4,8 @@ use serde::Serialize;
 
 use super::Failure;
 
-const LINE: usize = 100;
+/// Long enough for a stop with all its digits.
+const LINE: usize = 180;
 
 /// A document as text, with a line feed at its end.
 pub(super) fn json(document: &impl Serialize) -> Result<String, Failure> {
@@ -20,7 +21,8 @@ pub(super) fn json(document: &impl Serialize) -> Result<String, Failure> {
 fn lay_out(compact: &str, indent: usize, text: &mut String) {
     let brackets = compact.starts_with(['{', '[']);
     // Spaces are set after colons and commas, so that a line grows a little.
-    if !brackets || compact.len() + compact.len() / 8 + indent <= LINE {
+    let short = indent > 0 && compact.len() + compact.len() / 8 + indent <= LINE;
+    if !brackets || compact.len() == 2 || short {
         return one_line(compact, text);
     }
     let (open, close) = (&compact[..1], &compact[compact.len() - 1..]);
@@ -104,7 +106,7 @@ mod tests {
     #[test]
     fn short_values_stand_on_one_line() {
         let text = pretty(&json!({"a": [1, 2], "b": "x, \"y\": {"})).unwrap();
-        assert_eq!(text, "{\"a\": [1, 2], \"b\": \"x, \\\"y\\\": {\"}\n");
+        assert_eq!(text, "{\n  \"a\": [1, 2],\n  \"b\": \"x, \\\"y\\\": {\"\n}\n");
     }
 
     #[test]

@@ -13,7 +13,7 @@ use super::style;
 use super::view::{LEFT, TOP, WIDTH, tenth};
 
 /// Past so many, disks say nothing any more and take renderers long.
-pub(super) const MOST_DISKS: usize = 2500;
+pub(super) const MOST_DISKS: usize = 5000;
 const MOST_WITNESSES: usize = 400;
 
 /// The map's sheet with its grid and axes.
@@ -137,8 +137,10 @@ pub(super) fn witnesses(scene: &Scene<'_>, room: &mut Room) -> Group {
         // One mark for what falls on one spot.
         let spot = (class, (x / 6.0) as i64, (y / 6.0) as i64);
         if seen.len() < MOST_WITNESSES && seen.insert(spot) {
-            room.take(Area::around([x, y], 7.0));
-            let data = format!("M{x} {y}{}", style::TRIANGLE);
+            room.take(Area::around([x, y], 5.0));
+            let large = class == "short" && scene.plan.violations.len() <= 100;
+            let shape = if large { style::TRIANGLE } else { style::SMALL_TRIANGLE };
+            let data = format!("M{x} {y}{shape}");
             group =
                 group.add(Path::new().set("class", class).set("d", data).add(Title::new(words)));
         }

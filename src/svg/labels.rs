@@ -65,6 +65,35 @@ impl Room {
         free
     }
 
+    /// Takes what lies under a line.
+    pub fn take_line(&mut self, [from, to]: [[f64; 2]; 2]) {
+        let long = (to[0] - from[0]).hypot(to[1] - from[1]);
+        let steps = (long / CELL).clamp(1.0, 1000.0).ceil();
+        let mut step = 0.0;
+        while step <= steps {
+            let at = [0, 1].map(|axis| from[axis] + (to[axis] - from[axis]) * step / steps);
+            self.take(Area::around(at, 0.5));
+            step += 1.0;
+        }
+    }
+
+    /// Writes a text beside a mark of that radius, if one of eight places is free; else further out.
+    pub fn write_near(
+        &mut self,
+        into: Group,
+        words: &str,
+        class: &str,
+        at: [f64; 2],
+        radius: f64,
+    ) -> Group {
+        let before = into.get_children().len();
+        let into = self.write(into, words, class, at, radius);
+        if into.get_children().len() > before {
+            return into;
+        }
+        self.write(into, words, class, at, radius + 12.0)
+    }
+
     /// Writes a text beside a mark of that radius, if one of eight places is free.
     pub fn write(
         &mut self,

@@ -7,7 +7,7 @@ use voltour_solver::scenario::{Objective, Place};
 
 use super::field::MOST_DISKS;
 use super::scene::{Role, Scene};
-use super::style::{self, TRIANGLE};
+use super::style::{self, SMALL_TRIANGLE, TRIANGLE};
 use super::text::{duration, joules, metres, number, short};
 use super::tour;
 use super::view::{TOP, tenth};
@@ -194,10 +194,10 @@ fn moving(panel: &mut Panel, scene: &Scene<'_>) {
     let way =
         |class: &str| Path::new().set("class", class).set("d", format!("M{} {y}h20", x - 10.0));
     let met = Group::new().add(way("met")).add(circle([x - 8.0, y], "was", 3.0));
-    panel.entry(met, "Way of a sensor until it is met", None);
+    panel.entry(met, "Way of a sensor to its meeting", None);
     let [x, y] = panel.spot();
     let trail = Path::new().set("class", "trail").set("d", format!("M{} {y}h20", x - 10.0));
-    panel.entry(trail, "Way of a sensor", None);
+    panel.entry(trail, "Way of another sensor", None);
 }
 
 fn coverage(panel: &mut Panel, scene: &Scene<'_>) {
@@ -205,9 +205,10 @@ fn coverage(panel: &mut Panel, scene: &Scene<'_>) {
     if scene.scenario.sensors.len() <= MOST_DISKS {
         let alive = circle(panel.spot(), "alive", 8.0).set("fill-opacity", 0.34);
         panel.entry(alive, "Sensing disks that stay alive", None);
-        if scene.roles.iter().any(|role| !role.is_alive()) {
+        let dying = scene.roles.iter().filter(|role| !role.is_alive()).count();
+        if dying > 0 {
             let dead = circle(panel.spot(), "dead", 8.0);
-            panel.entry(dead, "Sensing disks that may die", None);
+            panel.entry(dead, "Sensing disks not kept alive", Some(dying));
         }
     }
     let short = |v: &&Violation| matches!(v, Violation::Coverage { .. });
@@ -216,11 +217,14 @@ fn coverage(panel: &mut Panel, scene: &Scene<'_>) {
     let needs = coverage.k;
     for (class, count, words) in [
         ("short", short, "Coverage falls short".to_owned()),
-        ("belowk", below, format!("Never had {needs} covers")),
+        ("belowk", below, format!("Never covered {needs} times")),
     ] {
         if count > 0 {
             let [x, y] = panel.spot();
-            let shape = Path::new().set("class", class).set("d", format!("M{x} {y}{TRIANGLE}"));
+            let shape = Path::new().set("class", class).set(
+                "d",
+                format!("M{x} {y}{}", if class == "short" { TRIANGLE } else { SMALL_TRIANGLE }),
+            );
             panel.entry(shape, &words, Some(count));
         }
     }
@@ -238,7 +242,7 @@ fn timetable(panel: &mut Panel, scene: &Scene<'_>) {
     let shown = if stops.len() <= rows { stops.len() } else { rows - 1 };
     for (i, stop) in stops.iter().take(shown).enumerate() {
         panel.text((i + 1).to_string(), "num", LEFT + 18.0);
-        panel.text(short(&stop.sensor, 14), "row", LEFT + 30.0);
+        panel.text(short(&stop.sensor, 11), "row", LEFT + 30.0);
         panel.text(duration(stop.arrive_s), "num", LEFT + 196.0);
         panel.text(joules(stop.charge_j), "num", RIGHT);
         panel.y += ROW;

@@ -21,8 +21,9 @@ pub fn picture(scenario: &Scenario, plan: &Plan) -> String {
     let mut room = Room::new(&scene.view);
     // What claims room first is drawn last: the depot before the stops, both before any label.
     let depot = tour::depot(&scene, &mut room);
-    let witnesses = field::witnesses(&scene, &mut room);
     let stops = tour::stops(&scene, &mut room);
+    let witnesses = field::witnesses(&scene, &mut room);
+    tour::keep_clear(&scene, &mut room);
     let sensors = sensors::sensors(&scene, &mut room);
     let ids = sensors::ids(&scene, &mut room);
     let map = field::field(&scene).into_iter().fold(Group::new(), Group::add);
@@ -30,10 +31,10 @@ pub fn picture(scenario: &Scenario, plan: &Plan) -> String {
         .set("clip-path", "url(#map)")
         .add(trails::trails(&scene))
         .add(tour::line(&scene))
+        .add(witnesses)
         .add(sensors)
         .add(stops)
         .add(depot)
-        .add(witnesses)
         .add(ids);
 
     let (panel, panel_bottom) = panel::panel(&scene);

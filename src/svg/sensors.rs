@@ -25,6 +25,7 @@ pub(super) fn sensors(scene: &Scene<'_>, room: &mut Room) -> Group {
 fn each(scene: &Scene<'_>, room: &mut Room) -> Group {
     // Requests lie above the sensors that asked for nothing.
     let (mut idle, mut asked) = (Group::new(), Group::new());
+    let scale = if scene.scenario.sensors.len() > 500 { 0.7 } else { 1.0 };
     for (sensor, role) in scene.sensors() {
         let at = scene.view.at(sensor.place.at(0.0).into()).map(tenth);
         match role {
@@ -32,12 +33,13 @@ fn each(scene: &Scene<'_>, room: &mut Room) -> Group {
             Role::Idle => {
                 room.take(Area::around(at, 3.0));
                 let dot = Circle::new().set("class", "idle").set("cx", at[0]).set("cy", at[1]);
-                idle = idle.add(dot.set("r", 3.2).add(Title::new(idle_title(sensor))));
+                idle =
+                    idle.add(dot.set("r", tenth(3.2 * scale)).add(Title::new(idle_title(sensor))));
             }
             Role::Unserved(reason) => {
                 room.take(Area::around(at, 6.0));
                 let request = scene.request_of(&sensor.id);
-                asked = unserved(asked, sensor, request, reason, at);
+                asked = unserved(asked, sensor, request, reason, at, scale);
             }
         }
     }
@@ -50,14 +52,21 @@ fn unserved(
     request: Option<&Request>,
     reason: Reason,
     [x, y]: [f64; 2],
+    scale: f64,
 ) -> Group {
     let mark = style::mark(reason);
     let words = unserved_title(sensor, request, mark.legend);
-    let shape = Path::new().set("class", mark.class).set("d", format!("M{x} {y}{}", mark.shape));
-    let into = into.add(shape.add(Title::new(words)));
+    let shape = Path::new().set("class", mark.class).add(Title::new(words));
+    let into = into.add(match scale {
+        1.0 => shape.set("d", format!("M{x} {y}{}", mark.shape)),
+        _ => shape
+            .set("d", format!("M0 0{}", mark.shape))
+            .set("transform", format!("translate({x} {y}) scale({scale})")),
+    });
     match request {
         Some(request) if request.required => {
-            into.add(Circle::new().set("class", "must").set("cx", x).set("cy", y).set("r", 9.5))
+            let ring = Circle::new().set("class", "must").set("cx", x).set("cy", y);
+            into.add(ring.set("r", tenth(9.5 * scale)))
         }
         _ => into,
     }

@@ -35,12 +35,13 @@ text{font-family:system-ui,'Segoe UI','Helvetica Neue',Arial,'DejaVu Sans',sans-
 .alive{fill:#009e73}
 .dead{fill:none;stroke:#d55e00;stroke-width:1.1;stroke-dasharray:3 4;stroke-opacity:.6}
 .short{fill:#d55e00;stroke:#fff;stroke-width:1.2;stroke-linejoin:round}
-.belowk{fill:#f0e442;stroke:#1f2933;stroke-width:1;stroke-linejoin:round}
+.belowk{fill:#f0e442;stroke:#1f2933;stroke-width:.7;stroke-linejoin:round}
 .halo{fill:none;stroke:#fff;stroke-opacity:.85;stroke-linejoin:round;stroke-linecap:round}
 .leg{fill:none;stroke:#12355b;stroke-linejoin:round;stroke-linecap:round}
 .arrow{fill:#12355b;stroke:#fff;stroke-width:1}
-.trail{fill:none;stroke:#9aa5b1;stroke-width:1.1;stroke-linejoin:round;stroke-dasharray:1 3.2;stroke-linecap:round}
-.met{fill:none;stroke:#56b4e9;stroke-width:1.8;stroke-linejoin:round;stroke-linecap:round}
+.trail{fill:none;stroke:#9aa5b1;stroke-width:1;stroke-opacity:.6;stroke-linejoin:round;stroke-dasharray:1 3.2;stroke-linecap:round}
+.met{fill:none;stroke:#56b4e9;stroke-width:1.1;stroke-opacity:.55;stroke-linejoin:round;stroke-linecap:round}
+.last{fill:none;stroke:#0072b2;stroke-width:2;stroke-linejoin:round;stroke-linecap:round}
 .was{fill:#fff;stroke:#56b4e9;stroke-width:1.6}
 .idle{fill:#7b8794;stroke:#fff;stroke-width:.8}
 .stop{fill:#12355b;stroke:#fff;stroke-width:1.4}
@@ -92,6 +93,8 @@ pub(super) fn mark(reason: Reason) -> Mark {
 
 /// A triangle with its middle at the origin: a place that falls short.
 pub(super) const TRIANGLE: &str = "m0 -7l7 12h-14z";
+/// The same for what is no fault of the plan, or where there are many.
+pub(super) const SMALL_TRIANGLE: &str = "m0 -4l4 6.9h-8z";
 
 /// Words and colour for a status; white text is readable on each.
 pub(super) fn status(status: Status) -> (&'static str, &'static str) {

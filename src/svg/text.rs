@@ -46,14 +46,6 @@ pub(super) fn number(value: f64, decimals: usize) -> String {
     if text == "-0" { "0".into() } else { text.into() }
 }
 
-fn scaled(value: f64, unit: &str, thousand: &str, million: &str) -> String {
-    match value.abs() {
-        size if size >= 1e6 => format!("{} {million}", number(value / 1e6, 2)),
-        size if size >= 1e4 => format!("{} {thousand}", number(value / 1e3, 2)),
-        _ => format!("{} {unit}", number(value, 1)),
-    }
-}
-
 /// Such as `282.8 m`.
 pub(super) fn metres(value: f64) -> String {
     match value.abs() {
@@ -62,9 +54,14 @@ pub(super) fn metres(value: f64) -> String {
     }
 }
 
-/// Such as `9188.5 J` or `163.4 kJ`.
+/// Such as `9.19 kJ`; the same number of decimals for all of a size, so that columns line up.
 pub(super) fn joules(value: f64) -> String {
-    scaled(value, "J", "kJ", "MJ")
+    match value.abs() {
+        size if size >= 1e9 => format!("{} J", number(value, 0)),
+        size if size >= 1e6 => format!("{:.2} MJ", value / 1e6),
+        size if size >= 1e3 => format!("{:.2} kJ", value / 1e3),
+        _ => format!("{} J", number(value, 1)),
+    }
 }
 
 /// Such as `8 min 36 s`; what is above 100 hours in hours.
@@ -75,7 +72,7 @@ pub(super) fn duration(seconds: f64) -> String {
     if seconds < 60.0 {
         return match seconds {
             s if s == 0.0 || s >= 1.0 => format!("{} s", number(s, 1)),
-            s => format!("{} ms", number(s * 1e3, 2)),
+            s => format!("{} ms", number(s * 1e3, if s < 0.01 { 2 } else { 0 })),
         };
     }
     if seconds >= 360_000.0 {

@@ -52,6 +52,15 @@ pub(super) fn line(scene: &Scene<'_>) -> Group {
     arrows(&places).into_iter().fold(Group::new().add(halo).add(leg), Group::add)
 }
 
+/// Keeps labels off the line, as long as it is one and no thicket.
+pub(super) fn keep_clear(scene: &Scene<'_>, room: &mut Room) {
+    const MOST: usize = 150;
+    let places = places(scene);
+    if places.len() <= MOST {
+        places.array_windows().for_each(|&leg| room.take_line(leg));
+    }
+}
+
 fn places(scene: &Scene<'_>) -> Vec<[f64; 2]> {
     let charger = &scene.scenario.charger;
     let stops = scene.plan.stops.iter().map(|stop| stop.position_m);
@@ -117,7 +126,7 @@ pub(super) fn stops(scene: &Scene<'_>, room: &mut Room) -> Group {
     }
     let mut group = Group::new().add(large_ones).add(small_ones).add(numbers);
     for (number, at) in beside {
-        group = room.write(group, &number, "ord", at, SMALL);
+        group = room.write_near(group, &number, "ord", at, SMALL);
     }
     group
 }

@@ -2,6 +2,7 @@
 
 pub mod check;
 pub mod coverage;
+pub mod generate;
 pub mod instance;
 pub mod plan;
 pub mod scenario;
