@@ -6,11 +6,14 @@ mod command;
 mod documents;
 pub mod failure;
 pub mod generate;
+mod input;
 pub mod operator;
 mod pretty;
+mod out;
 pub mod serve;
 pub mod solve;
 mod stopwatch;
 
 pub use command::{Cli, Command, run};
 pub use failure::Failure;
+pub use out::say;
