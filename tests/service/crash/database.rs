@@ -1,0 +1,28 @@
+//! The database read directly, past the service: the crash tests trust nobody's account of it.
+
+use std::path::Path;
+
+use sqlx::sqlite::SqliteConnectOptions;
+use sqlx::{ConnectOptions, Row, SqliteConnection};
+
+/// Opens the database of a running server for reading.
+pub async fn open(path: &Path) -> SqliteConnection {
+    let options = SqliteConnectOptions::new().filename(path).read_only(true);
+    options.disable_statement_logging().connect().await.expect("the database opens")
+}
+
+/// The rows of a query, every column as text, null as "null".
+pub async fn rows(conn: &mut SqliteConnection, sql: &'static str) -> Vec<Vec<String>> {
+    let rows = sqlx::query(sql).fetch_all(conn).await.unwrap_or_else(|e| panic!("{sql}: {e}"));
+    let text = |row: &sqlx::sqlite::SqliteRow, column: usize| {
+        let value: Option<String> = row.get_unchecked(column);
+        value.unwrap_or_else(|| "null".into())
+    };
+    rows.iter().map(|row| (0..row.len()).map(|column| text(row, column)).collect()).collect()
+}
+
+/// Opens a copy of a database that nobody has open.
+pub async fn open_copy(path: &Path) -> SqliteConnection {
+    let options = SqliteConnectOptions::new().filename(path);
+    options.disable_statement_logging().connect().await.expect("the copy opens")
+}
