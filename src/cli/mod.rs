@@ -8,16 +8,8 @@ pub mod failure;
 pub mod generate;
 mod input;
 pub mod operator;
-<<<<<<< HEAD
-<<<<<<< HEAD
-mod pretty;
-=======
 mod out;
->>>>>>> edge
-=======
 mod pretty;
-mod out;
->>>>>>> tests
 pub mod serve;
 pub mod solve;
 mod stopwatch;

@@ -62,8 +62,7 @@ async fn cancelling_an_announced_departure_leaves_its_requests_open() {
     let app = TestApp::start().await;
     app.put(line(1)).await;
     let asked = app.ask("s1").await;
-    let announced =
-        AnnounceRequest { t0: from_now(3_600_000), ..field::departure("A") };
+    let announced = AnnounceRequest { t0: from_now(3_600_000), ..field::departure("A") };
     let departure = app.announce(announced).await;
     assert_eq!(departure.state, DepartureState::Announced as i32);
     let departure = app.cancel(&departure.id).await;

@@ -73,7 +73,8 @@ async fn on_its_way(app: &TestApp, charger: &Charger) {
 
 async fn reported(app: &TestApp, chargers: &[Charger]) {
     let mut conn = open(&app.database()).await;
-    let visits = rows(&mut conn, "SELECT id, tour_id, client_id, sensor_id, outcome FROM visits").await;
+    let visits =
+        rows(&mut conn, "SELECT id, tour_id, client_id, sensor_id, outcome FROM visits").await;
     let visits: HashMap<_, _> = visits.iter().map(|row| (row[0].as_str(), &row[1..])).collect();
     let states = rows(&mut conn, "SELECT id, state FROM tours").await;
     let states: HashMap<_, _> = states.iter().map(|row| (row[0].as_str(), &row[1])).collect();

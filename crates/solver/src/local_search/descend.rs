@@ -30,7 +30,8 @@ pub fn descend(
         };
         for other in served {
             let beside = ends(tour).unwrap_or_default();
-            if two_opt(instance, tour, candidate, other) || or_opt(instance, tour, candidate, other) {
+            if two_opt(instance, tour, candidate, other) || or_opt(instance, tour, candidate, other)
+            {
                 made += 1;
                 dirty.extend(beside);
                 dirty.extend(ends(tour).unwrap_or_default());

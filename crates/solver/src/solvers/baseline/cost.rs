@@ -1,8 +1,8 @@
 //! One number for a tour that may lack something: what the annealing compares.
 
 use crate::instance::Instance;
-use crate::scenario::Objective;
 use crate::local_search::effort;
+use crate::scenario::Objective;
 use crate::solvers::partial::{Partial, gain};
 
 /// A missing cover begins at so many scales.

@@ -4,10 +4,10 @@ use rand::RngExt;
 use rand_pcg::Pcg64Mcg;
 
 use super::cost::Cost;
-use crate::local_search::{Neighbours, descend};
 use super::recreate::recreate;
 use super::ruin::ruin;
 use crate::instance::Instance;
+use crate::local_search::{Neighbours, descend};
 use crate::scenario::Objective;
 use crate::solvers::entry::Found;
 use crate::solvers::partial::{Partial, gain};
