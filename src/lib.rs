@@ -2,6 +2,7 @@
 
 pub mod clock;
 pub mod domain;
+pub mod planner;
 pub mod scheduler;
 pub mod store;
 
