@@ -13,6 +13,7 @@ pub mod planner;
 pub mod rest;
 pub mod scheduler;
 pub mod store;
+pub mod svg;
 pub mod telemetry;
 
 /// The generated gRPC contract. Only the gRPC edge and the clients see it.

@@ -3,13 +3,16 @@
 
 pub mod check;
 mod command;
+mod documents;
 pub mod failure;
 pub mod generate;
 mod input;
 pub mod operator;
 mod out;
+mod pretty;
 pub mod serve;
 pub mod solve;
+mod stopwatch;
 
 pub use command::{Cli, Command, run};
 pub use failure::Failure;
