@@ -33,7 +33,8 @@ use super::{health, lists, plans};
         plans::scenario,
         health::healthz,
         health::readyz,
-    )
+    ),
+    components(schemas(PlanStatus))
 )]
 struct Api;
 
