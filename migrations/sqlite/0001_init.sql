@@ -1,6 +1,6 @@
 -- The first schema. Ids are text (UUIDv7 where the service makes them), times are whole microseconds
 -- since the Unix epoch in UTC (`*_us`), documents are JSON. Rows that a watch follows carry `change`,
--- a number that rises with every transaction. Append-only: later schemas are later files.
+-- a number of which each row that a transaction touches gets the next. Append-only: later schemas are later files.
 
 -- Networks: the present version of each.
 CREATE TABLE networks (
@@ -142,12 +142,20 @@ CREATE TABLE tours (
     state         TEXT    NOT NULL CHECK (state IN ('out', 'completed', 'overdue', 'cancelled')),
     start_us      INTEGER NOT NULL,
     finish_us     INTEGER NOT NULL,
+    start_x_m     REAL    NOT NULL,
+    start_y_m     REAL    NOT NULL,
+    end_x_m       REAL    NOT NULL,
+    end_y_m       REAL    NOT NULL,
+    distance_m    REAL    NOT NULL,
+    travel_j      REAL    NOT NULL,
+    charge_j      REAL    NOT NULL,
     heard_us      INTEGER NOT NULL, -- the last report, or the planned finish if later
     updated_us    INTEGER NOT NULL,
     change        INTEGER NOT NULL,
     UNIQUE (plan_id, number)
 ) STRICT;
 CREATE UNIQUE INDEX tours_out ON tours (network_id, charger_id) WHERE state = 'out';
+CREATE INDEX tours_departure ON tours (departure_id, number);
 CREATE INDEX tours_change ON tours (network_id, change);
 CREATE INDEX tours_heard ON tours (heard_us) WHERE state = 'out';
 

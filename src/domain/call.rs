@@ -3,7 +3,7 @@
 use serde::Serialize;
 use sha2::{Digest, Sha256};
 
-use super::ClientId;
+use super::{ClientId, DepartureId, NetworkId, NetworkSpec, RequestId, SensorId, TimedPoint};
 
 /// SHA-256 of a call's content: the same id with another one is refused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,4 +27,37 @@ impl<T: Serialize> Call<T> {
         hasher.update(&json);
         Fingerprint(hasher.finalize().into())
     }
+}
+
+/// Content of `NetworkService.Put`.
+#[derive(Clone, Debug, Serialize)]
+#[allow(missing_docs)]
+pub struct PutNetwork {
+    pub network_id: NetworkId,
+    pub spec: NetworkSpec,
+    pub expected_version: Option<u64>,
+}
+
+/// Content of `NetworkService.UpdateTrajectory`.
+#[derive(Clone, Debug, Serialize)]
+#[allow(missing_docs)]
+pub struct UpdateTrajectories {
+    pub network_id: NetworkId,
+    pub trajectories: Vec<(SensorId, Vec<TimedPoint>)>,
+}
+
+/// Content of `RequestService.Withdraw`.
+#[derive(Clone, Debug, Serialize)]
+#[allow(missing_docs)]
+pub struct Withdraw {
+    pub network_id: NetworkId,
+    pub request_id: RequestId,
+}
+
+/// Content of `DepartureService.Cancel`.
+#[derive(Clone, Debug, Serialize)]
+#[allow(missing_docs)]
+pub struct CancelDeparture {
+    pub departure_id: DepartureId,
+    pub reason: String,
 }

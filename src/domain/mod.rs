@@ -3,13 +3,15 @@
 
 mod call;
 mod departure;
+pub mod documents;
 mod ids;
 mod network;
 mod refusal;
 mod request;
+pub mod rules;
 mod tour;
 
-pub use call::{Call, Fingerprint};
+pub use call::{Call, CancelDeparture, Fingerprint, PutNetwork, UpdateTrajectories, Withdraw};
 pub use departure::{Announcement, Departure, DepartureState};
 pub use ids::{
     ChargerId, ClientId, DepartureId, IdError, NetworkId, PlanId, RequestId, SensorId, TourId,

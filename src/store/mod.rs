@@ -1,25 +1,27 @@
-//! The store: the only room that sees SQL.
+//! The store: the only room that sees SQL. One [`Writer`] changes the database, in transactions of all
+//! that has queued up; [`Reads`] reads beside it.
 
+mod cells;
+mod commands;
+mod error;
+#[cfg(test)]
+pub(crate) mod fixture;
+mod lock;
+mod networks;
 mod open;
 mod page;
 mod read;
+mod rows;
+mod words;
+mod writer;
 
+pub(crate) use cells::pack;
+pub use commands::{
+    Announce, Batch, Cancel, CloseBatch, Closing, Complete, NewPlan, NewStop, Overdue, Put,
+    ReportVisit, StorePlan, Storing, Submit, TakeBack, UpdatePaths,
+};
+pub use error::StoreError;
 pub use open::Store;
 pub use page::{DepartureFilter, Listed, Page, PlanFilter, RequestFilter};
-pub use read::{PlanSummary, Reads};
-
-/// What can go wrong below the service.
-#[derive(Debug, thiserror::Error)]
-pub enum StoreError {
-    /// The database said so.
-    #[error("database: {0}")]
-    Database(#[from] sqlx::Error),
-    /// A row holds what no row should hold.
-    #[error("row of {table} cannot be read: {reason}")]
-    Row {
-        /// The table.
-        table: &'static str,
-        /// What is wrong.
-        reason: String,
-    },
-}
+pub use read::{PlanSummary, Reads, Waiting};
+pub use writer::Writer;

@@ -1,16 +1,31 @@
-//! Opening the database.
+//! Opening the database: the lock, the schema, the connections; and opening it again after a failed
+//! write.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::time::Duration;
 
+use sqlx::sqlite::{SqliteConnectOptions, SqliteJournalMode, SqlitePoolOptions, SqliteSynchronous};
+use sqlx::{ConnectOptions, Connection, SqliteConnection};
+
+use super::lock::Lock;
+use super::writer::{self, Writer};
 use super::{Reads, StoreError};
 use crate::clock::Clock;
+
+/// Connections that read at once.
+const READERS: u32 = 8;
+/// How long a reader waits for a connection.
+const PATIENCE: Duration = Duration::from_secs(10);
 
 /// An open database: one writer, many readers.
 #[derive(Debug)]
 pub struct Store {
     /// Its read half.
     pub reads: Reads,
+    /// Its write half.
+    pub writer: Writer,
+    pub(crate) task: writer::Task,
 }
 
 impl Store {
@@ -18,7 +33,77 @@ impl Store {
     ///
     /// # Errors
     /// Another process has it open, or it cannot be opened, migrated or verified.
-    pub async fn open(_path: &Path, _clock: Arc<dyn Clock>) -> Result<Self, StoreError> {
-        todo!()
+    pub async fn open(path: &Path, clock: Arc<dyn Clock>) -> Result<Self, StoreError> {
+        let database = Database { path: path.to_owned(), _lock: Lock::take(path)? };
+        let mut conn = database.connect().await?;
+        sqlx::migrate!("migrations/sqlite").run(&mut conn).await?;
+        let change = last_change(&mut conn).await?;
+        let pool = SqlitePoolOptions::new().max_connections(READERS).acquire_timeout(PATIENCE);
+        let reads = Reads::new(pool.connect_with(database.options().read_only(true)).await?);
+        let (writer, task) = writer::spawn(database, conn, change, clock, reads.clone());
+        Ok(Self { reads, writer, task })
     }
+}
+
+/// The database file, locked.
+#[derive(Debug)]
+pub(super) struct Database {
+    path: PathBuf,
+    _lock: Lock,
+}
+
+impl Database {
+    /// The connection that writes.
+    pub async fn connect(&self) -> Result<SqliteConnection, StoreError> {
+        Ok(self.options().create_if_missing(true).connect().await?)
+    }
+
+    /// Opens the database again after a failed write. What was acknowledged must be there: a last
+    /// change before `acknowledged` is a database that has lost something.
+    pub async fn reopen(&self, acknowledged: u64) -> Result<(SqliteConnection, u64), StoreError> {
+        let mut conn = self.options().connect().await?;
+        let verdict: String = sqlx::query_scalar("PRAGMA quick_check").fetch_one(&mut conn).await?;
+        if verdict != "ok" {
+            return Err(StoreError::Verification(verdict));
+        }
+        let change = last_change(&mut conn).await?;
+        if change < acknowledged {
+            let reason = format!("the last change is {change}, {acknowledged} was acknowledged");
+            return Err(StoreError::Verification(reason));
+        }
+        // What the failed transaction wrote may have been kept all the same, unacknowledged. Writing
+        // it back into the file before anything else shows that syncing works again.
+        sqlx::query("PRAGMA wal_checkpoint(TRUNCATE)").execute(&mut conn).await?;
+        Ok((conn, change))
+    }
+
+    fn options(&self) -> SqliteConnectOptions {
+        SqliteConnectOptions::new()
+            .filename(&self.path)
+            .journal_mode(SqliteJournalMode::Wal)
+            .synchronous(SqliteSynchronous::Full)
+            .foreign_keys(true)
+            .busy_timeout(Duration::from_secs(5))
+            .disable_statement_logging()
+    }
+}
+
+/// Checkpoints and closes.
+pub(super) async fn close(mut conn: SqliteConnection) -> Result<(), StoreError> {
+    sqlx::query("PRAGMA wal_checkpoint(TRUNCATE)").execute(&mut conn).await?;
+    Ok(conn.close().await?)
+}
+
+async fn last_change(conn: &mut SqliteConnection) -> Result<u64, StoreError> {
+    let mut last = 0;
+    // By network, for that is what the indices begin with.
+    for sql in [
+        "SELECT max((SELECT max(change) FROM requests WHERE network_id = n.id)) FROM networks n",
+        "SELECT max((SELECT max(change) FROM departures WHERE network_id = n.id)) FROM networks n",
+        "SELECT max((SELECT max(change) FROM tours WHERE network_id = n.id)) FROM networks n",
+    ] {
+        let change: Option<i64> = sqlx::query_scalar(sql).fetch_one(&mut *conn).await?;
+        last = last.max(change.unwrap_or_default().unsigned_abs());
+    }
+    Ok(last)
 }

@@ -1,0 +1,250 @@
+//! The loop of the writer, its handle, and what it does when the database fails.
+
+use std::fmt;
+use std::sync::Arc;
+use std::time::Duration;
+
+use sqlx::SqliteConnection;
+use tokio::sync::{mpsc, watch};
+use tokio::task::JoinHandle;
+use tokio_util::sync::CancellationToken;
+
+use super::job::{Asked, Command, Job};
+use super::writing::Writing;
+use crate::clock::{Clock, Ids, plus};
+use crate::domain::Refusal;
+use crate::store::open::{self, Database};
+use crate::store::{Reads, StoreError};
+
+/// Commands that may wait for the writer; more wait in their callers.
+const QUEUE: usize = 4_096;
+/// Commands in one transaction at most.
+const GROUP: usize = 1_000;
+/// How often a database that failed is opened again before the writer gives up.
+const REOPENINGS: u32 = 10;
+
+/// The handle of the writer; cheap to clone.
+#[derive(Clone)]
+pub struct Writer {
+    queue: mpsc::Sender<Box<dyn Job>>,
+    committed: watch::Receiver<u64>,
+    tours: watch::Receiver<u64>,
+}
+
+impl fmt::Debug for Writer {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Writer").finish_non_exhaustive()
+    }
+}
+
+impl Writer {
+    /// Applies a command; its answer comes after the commit. Waits while the queue is full.
+    pub(crate) async fn call<C: Command>(&self, command: C) -> Result<C::Answer, Refusal> {
+        let closed = || Refusal::Unavailable("the service is shutting down".into());
+        let (job, answer) = Asked::new(command);
+        self.queue.send(Box::new(job)).await.map_err(|_| closed())?;
+        answer.await.unwrap_or_else(|_| Err(closed()))
+    }
+
+    /// The number of the last committed change.
+    pub fn changes(&self) -> watch::Receiver<u64> {
+        self.committed.clone()
+    }
+
+    /// The number of the last committed change of a departure or a tour.
+    pub fn tour_changes(&self) -> watch::Receiver<u64> {
+        self.tours.clone()
+    }
+}
+
+/// The task of the writer.
+#[derive(Debug)]
+pub(crate) struct Task {
+    /// Cancelled, the queue closes: what is in it is still done.
+    pub stop: CancellationToken,
+    /// Ends after the queue has, or when the database cannot be brought back.
+    pub ended: JoinHandle<Result<(), StoreError>>,
+}
+
+/// Starts the writer.
+pub(in crate::store) fn spawn(
+    database: Database,
+    conn: SqliteConnection,
+    change: u64,
+    clock: Arc<dyn Clock>,
+    reads: Reads,
+) -> (Writer, Task) {
+    let (queue, jobs) = mpsc::channel(QUEUE);
+    let (committed, tours) = (watch::Sender::new(change), watch::Sender::new(change));
+    let writer = Writer { queue, committed: committed.subscribe(), tours: tours.subscribe() };
+    let stop = CancellationToken::new();
+    let writing = Writing::new(conn, change, clock, Ids::default());
+    let work = Work { database, jobs, committed, tours, reads, stop: stop.clone() };
+    (writer, Task { stop, ended: tokio::spawn(work.run(writing)) })
+}
+
+struct Work {
+    database: Database,
+    jobs: mpsc::Receiver<Box<dyn Job>>,
+    committed: watch::Sender<u64>,
+    tours: watch::Sender<u64>,
+    reads: Reads,
+    stop: CancellationToken,
+}
+
+/// How a transaction failed.
+enum Fault {
+    /// A command broke it, and it was rolled back: the others can be applied without that one.
+    Command(StoreError),
+    /// The database did: nobody knows what it holds.
+    Database(StoreError),
+}
+
+impl Work {
+    async fn run(mut self, mut writing: Writing) -> Result<(), StoreError> {
+        let mut group = Vec::with_capacity(GROUP);
+        while self.next(&mut group).await {
+            let fault = match self.attempt(&mut group, &mut writing).await {
+                Ok(()) => {
+                    group.drain(..).for_each(Job::answer);
+                    continue;
+                }
+                Err(Fault::Command(error)) => self.singly(&mut group, &mut writing, error).await,
+                Err(Fault::Database(error)) => Err(error),
+            };
+            if let Err(error) = fault {
+                tracing::error!(%error, commands = group.len(), "a transaction failed, reopening the database");
+                group.drain(..).for_each(|job| job.refuse(unavailable()));
+                writing = self.recover(writing).await?;
+            }
+        }
+        self.reads.close().await;
+        open::close(writing.conn).await
+    }
+
+    /// Waits for commands and takes what has queued up; false once the queue is closed and empty.
+    async fn next(&mut self, group: &mut Vec<Box<dyn Job>>) -> bool {
+        tokio::select! {
+            biased;
+            () = self.stop.cancelled(), if !self.jobs.is_closed() => self.jobs.close(),
+            taken = self.jobs.recv_many(group, GROUP) => return taken > 0,
+        }
+        self.jobs.recv_many(group, GROUP).await > 0
+    }
+
+    /// Applies commands in one transaction.
+    async fn attempt(
+        &self,
+        group: &mut [Box<dyn Job>],
+        writing: &mut Writing,
+    ) -> Result<(), Fault> {
+        let before = writing.change();
+        let database = |error: sqlx::Error| Fault::Database(error.into());
+        writing.begun();
+        sqlx::query("BEGIN IMMEDIATE").execute(&mut writing.conn).await.map_err(database)?;
+        for job in group {
+            if let Err(error) = job.run(writing).await {
+                writing.rolled_back(before);
+                sqlx::query("ROLLBACK").execute(&mut writing.conn).await.map_err(database)?;
+                return Err(Fault::Command(error));
+            }
+        }
+        sqlx::query("COMMIT").execute(&mut writing.conn).await.map_err(database)?;
+        self.publish(writing, before);
+        Ok(())
+    }
+
+    /// Applies commands each in a transaction of its own, after one of them has failed.
+    async fn singly(
+        &self,
+        group: &mut Vec<Box<dyn Job>>,
+        writing: &mut Writing,
+        error: StoreError,
+    ) -> Result<(), StoreError> {
+        tracing::warn!(%error, commands = group.len(), "a command failed, applying them one by one");
+        for job in std::mem::take(group) {
+            let mut single = [job];
+            let fault = self.attempt(&mut single, writing).await;
+            let [job] = single;
+            match fault {
+                Ok(()) => job.answer(),
+                Err(Fault::Command(error)) => {
+                    tracing::error!(%error, "a command failed");
+                    job.refuse(refusal(&error));
+                }
+                // The rest of the group is dropped, and its callers hear that the writer is unavailable.
+                Err(Fault::Database(error)) => {
+                    job.refuse(unavailable());
+                    return Err(error);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn publish(&self, writing: &Writing, before: u64) {
+        let change = writing.change();
+        if change > before {
+            self.committed.send_replace(change);
+            if writing.tours_moved {
+                self.tours.send_replace(change);
+            }
+        }
+    }
+
+    /// Opens the database again and verifies it. Whoever asks meanwhile is refused.
+    async fn recover(&mut self, writing: Writing) -> Result<Writing, StoreError> {
+        let acknowledged = *self.committed.borrow();
+        let (clock, ids) = writing.closed().await;
+        let mut pause = Duration::from_millis(50);
+        let mut last = None;
+        for _ in 0..REOPENINGS {
+            match self.database.reopen(acknowledged).await {
+                Ok((conn, change)) => {
+                    tracing::info!(change, "the database is open again");
+                    self.committed.send_replace(change);
+                    self.tours.send_replace(change);
+                    return Ok(Writing::new(conn, change, clock, ids));
+                }
+                Err(error) => {
+                    tracing::error!(%error, "the database cannot be reopened");
+                    last = Some(error);
+                }
+            }
+            self.refuse_until(&*clock, pause).await;
+            pause = (pause * 2).min(Duration::from_secs(10));
+        }
+        self.jobs.close();
+        Err(last.unwrap_or_else(|| StoreError::Verification("not reopened".into())))
+    }
+
+    async fn refuse_until(&mut self, clock: &dyn Clock, pause: Duration) {
+        let over = clock.sleep_until(plus(clock.now(), pause));
+        tokio::pin!(over);
+        loop {
+            tokio::select! {
+                () = &mut over => return,
+                Some(job) = self.jobs.recv() => job.refuse(unavailable()),
+            }
+        }
+    }
+}
+
+fn unavailable() -> Refusal {
+    Refusal::Unavailable("the database cannot be written now, nothing was stored: try again".into())
+}
+
+/// What the caller of a command hears that has failed on its own.
+fn refusal(error: &StoreError) -> Refusal {
+    match error {
+        StoreError::Database(sqlx::Error::Database(inner))
+            if inner.is_unique_violation()
+                || inner.is_foreign_key_violation()
+                || inner.is_check_violation() =>
+        {
+            Refusal::Internal("the database refused a row: a defect, see the log".into())
+        }
+        StoreError::Row { .. } => Refusal::Internal("a row cannot be read: see the log".into()),
+        _ => unavailable(),
+    }
+}
