@@ -6,7 +6,9 @@ mod command;
 mod documents;
 pub mod failure;
 pub mod generate;
+mod input;
 pub mod operator;
+mod out;
 mod pretty;
 pub mod serve;
 pub mod solve;
@@ -14,3 +16,4 @@ mod stopwatch;
 
 pub use command::{Cli, Command, run};
 pub use failure::Failure;
+pub use out::say;

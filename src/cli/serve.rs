@@ -8,7 +8,7 @@ use std::time::Duration;
 
 use tokio::runtime::Builder;
 
-use super::Failure;
+use super::{Failure, say};
 use crate::app::App;
 use crate::clock::SystemClock;
 use crate::config::{self, Config};
@@ -93,7 +93,7 @@ async fn serve(config: Config) -> Result<(), Failure> {
     lifecycle.listen().map_err(|error| failed(&error))?;
     let started = App::start(&config, Arc::new(SystemClock), lifecycle).await;
     let app = started.map_err(|error| failed(&error))?;
-    println!("voltour ready grpc=http://{} rest=http://{}", app.grpc, app.rest);
+    say(format!("voltour ready grpc=http://{} rest=http://{}", app.grpc, app.rest));
     app.run().await.map_err(|error| failed(&error))
 }
 

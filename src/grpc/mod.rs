@@ -17,3 +17,4 @@ pub mod wire;
 
 pub use edge::{Edge, Limits};
 pub use server::{Server, ServerError};
+pub use status::violations;

@@ -1,16 +1,16 @@
 //! The operator's commands: they do over gRPC, against a running service, what its clients do.
 
-use std::process::ExitCode;
+mod arguments;
+mod charger;
+mod client;
+mod command;
+mod depart;
+mod ndjson;
+mod network;
+mod request;
+mod show;
+mod tour;
 
-use clap::Subcommand;
-
-use super::Failure;
-
-/// One a file.
-#[derive(Debug, Subcommand)]
-pub enum Command {}
-
-/// Runs the command.
-pub fn run(command: Command) -> Result<ExitCode, Failure> {
-    match command {}
-}
+pub(crate) use arguments::fresh_id;
+pub(crate) use client::{call, connect, refused, unreadable, waiting};
+pub use command::{Command, run};

@@ -65,7 +65,7 @@ pub fn request_state(fields: &mut Fields, at: Path<'_>, wire: i32) -> Option<Req
 }
 
 /// A state for the wire.
-pub(crate) fn request_state_to_wire(state: RequestState) -> proto::RequestState {
+pub fn request_state_to_wire(state: RequestState) -> proto::RequestState {
     use proto::RequestState as Wire;
     match state {
         RequestState::Open => Wire::Open,
