@@ -9,6 +9,7 @@ pub mod domain;
 pub mod grpc;
 pub mod lifecycle;
 pub mod listen;
+pub mod planner;
 pub mod rest;
 pub mod scheduler;
 pub mod store;

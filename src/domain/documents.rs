@@ -56,8 +56,7 @@ pub fn sensor(sensor: &Sensor, place: &Place, start: Timestamp) -> SensorDocumen
 }
 
 fn rows(points: &[TimedPoint], start: Timestamp) -> Vec<[f64; 3]> {
-    let row = |point: &TimedPoint| {
-        [seconds(start, point.time), point.position_m[0], point.position_m[1]]
-    };
+    let row =
+        |point: &TimedPoint| [seconds(start, point.time), point.position_m[0], point.position_m[1]];
     points.iter().map(row).collect()
 }

@@ -1,94 +1,106 @@
 //! The cheap handle that the edges hold: one method a call of `service.md`.
 
-use tokio::sync::watch;
+use std::sync::Arc;
+use std::time::Duration;
 
+use tokio::sync::{Notify, watch};
+
+use super::next_tour;
 use crate::domain::{
-    Announcement, Call, ChargerId, Departure, DepartureId, Network, NetworkId, NetworkSpec,
-    NewRequest, NewVisit, Refusal, Request, RequestId, SensorId, TimedPoint, Tour, TourId, Visit,
+    Announcement, Call, ChargerId, Departure, DepartureId, Network, NetworkId, NewRequest,
+    NewVisit, Refusal, Request, Tour, TourId, Visit, rules,
 };
-use crate::store::Reads;
+use crate::store::{
+    Announce, Cancel, Complete, Put, Reads, ReportVisit, Submit, TakeBack, UpdatePaths, Writer,
+};
+
+pub use crate::domain::{CancelDeparture, PutNetwork, UpdateTrajectories, Withdraw};
 
 /// To the running scheduler; cheap to clone.
 #[derive(Clone, Debug)]
-pub struct Handle {}
-
-/// Content of `NetworkService.Put`.
-#[derive(Clone, Debug, serde::Serialize)]
-#[allow(missing_docs)]
-pub struct PutNetwork {
-    pub network_id: NetworkId,
-    pub spec: NetworkSpec,
-    pub expected_version: Option<u64>,
+pub struct Handle {
+    writer: Writer,
+    reads: Reads,
+    lead: Duration,
+    /// Wakes the scheduler where there may be something to do.
+    wake: Arc<Notify>,
 }
 
-/// Content of `NetworkService.UpdateTrajectory`.
-#[derive(Clone, Debug, serde::Serialize)]
-#[allow(missing_docs)]
-pub struct UpdateTrajectories {
-    pub network_id: NetworkId,
-    pub trajectories: Vec<(SensorId, Vec<TimedPoint>)>,
-}
+impl Handle {
+    pub(super) fn new(writer: Writer, reads: Reads, lead: Duration, wake: Arc<Notify>) -> Self {
+        Self { writer, reads, lead, wake }
+    }
 
-/// Content of `RequestService.Withdraw`.
-#[derive(Clone, Debug, serde::Serialize)]
-#[allow(missing_docs)]
-pub struct Withdraw {
-    pub network_id: NetworkId,
-    pub request_id: RequestId,
-}
-
-/// Content of `DepartureService.Cancel`.
-#[derive(Clone, Debug, serde::Serialize)]
-#[allow(missing_docs)]
-pub struct CancelDeparture {
-    pub departure_id: DepartureId,
-    pub reason: String,
+    fn woken<T>(&self, answer: Result<T, Refusal>) -> Result<T, Refusal> {
+        if answer.is_ok() {
+            self.wake.notify_one();
+        }
+        answer
+    }
 }
 
 #[allow(missing_docs)]
 impl Handle {
-    pub async fn put_network(&self, _call: Call<PutNetwork>) -> Result<Network, Refusal> {
-        todo!()
+    pub async fn put_network(&self, call: Call<PutNetwork>) -> Result<Network, Refusal> {
+        // A large network takes a while to judge and to compress.
+        let put = tokio::task::spawn_blocking(|| {
+            rules::network(&call.content.spec)?;
+            Put::new(call)
+        });
+        let put = put.await.map_err(|error| Refusal::Internal(error.to_string()))??;
+        self.writer.call(put).await
     }
+
     pub async fn update_trajectories(
         &self,
-        _call: Call<UpdateTrajectories>,
+        call: Call<UpdateTrajectories>,
     ) -> Result<u32, Refusal> {
-        todo!()
+        self.writer.call(UpdatePaths(call)).await
     }
-    pub async fn submit(&self, _call: Call<NewRequest>) -> Result<Request, Refusal> {
-        todo!()
+
+    pub async fn submit(&self, call: Call<NewRequest>) -> Result<Request, Refusal> {
+        self.writer.call(Submit::new(call)).await
     }
-    pub async fn withdraw(&self, _call: Call<Withdraw>) -> Result<Request, Refusal> {
-        todo!()
+
+    pub async fn withdraw(&self, call: Call<Withdraw>) -> Result<Request, Refusal> {
+        self.writer.call(TakeBack(call)).await
     }
-    pub async fn announce(&self, _call: Call<Announcement>) -> Result<Departure, Refusal> {
-        todo!()
+
+    pub async fn announce(&self, call: Call<Announcement>) -> Result<Departure, Refusal> {
+        self.woken(self.writer.call(Announce { call, lead: self.lead }).await)
     }
-    pub async fn cancel(&self, _call: Call<CancelDeparture>) -> Result<Departure, Refusal> {
-        todo!()
+
+    pub async fn cancel(&self, call: Call<CancelDeparture>) -> Result<Departure, Refusal> {
+        self.woken(self.writer.call(Cancel(call)).await)
     }
-    pub async fn report_visit(&self, _call: Call<NewVisit>) -> Result<Visit, Refusal> {
-        todo!()
+
+    pub async fn report_visit(&self, call: Call<NewVisit>) -> Result<Visit, Refusal> {
+        self.writer.call(ReportVisit(call)).await
     }
-    pub async fn complete(&self, _call: Call<TourId>) -> Result<Tour, Refusal> {
-        todo!()
+
+    pub async fn complete(&self, call: Call<TourId>) -> Result<Tour, Refusal> {
+        self.woken(self.writer.call(Complete(call)).await)
     }
+
     /// Waits until the charger's next tour is stored; the caller bounds the wait by dropping the future.
     pub async fn next_tour(
         &self,
-        _network_id: &NetworkId,
-        _charger_id: &ChargerId,
-        _departure_id: Option<DepartureId>,
+        network_id: &NetworkId,
+        charger_id: &ChargerId,
+        departure_id: Option<DepartureId>,
     ) -> Result<Tour, Refusal> {
-        todo!()
+        let changes = self.writer.tour_changes();
+        next_tour::wait(&self.reads, changes, network_id, charger_id, departure_id).await
     }
+
     /// For `Get` and `List`, and for what a watch reads after it was woken.
     pub fn reads(&self) -> &Reads {
-        todo!()
+        &self.reads
     }
-    /// The number of the last committed change; wakes watches.
+
+    /// The number of the last committed change; wakes watches. Each row that changes has a number of
+    /// its own. It closes when the service ends.
     pub fn changes(&self) -> watch::Receiver<u64> {
-        todo!()
+        self.writer.changes()
     }
 }

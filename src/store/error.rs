@@ -30,6 +30,9 @@ pub enum StoreError {
     /// The schema could not be brought up to date.
     #[error("migration: {0}")]
     Migration(#[from] sqlx::migrate::MigrateError),
+    /// A task of the service ended as it should not.
+    #[error("task: {0}")]
+    Task(String),
     /// The database does not hold what it held.
     #[error("verification: {0}")]
     Verification(String),

@@ -4,6 +4,8 @@
 mod cells;
 mod commands;
 mod error;
+#[cfg(test)]
+pub(crate) mod fixture;
 mod lock;
 mod networks;
 mod open;
@@ -13,6 +15,7 @@ mod rows;
 mod words;
 mod writer;
 
+pub(crate) use cells::pack;
 pub use commands::{
     Announce, Batch, Cancel, CloseBatch, Closing, Complete, NewPlan, NewStop, Overdue, Put,
     ReportVisit, StorePlan, Storing, Submit, TakeBack, UpdatePaths,

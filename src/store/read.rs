@@ -213,11 +213,7 @@ impl Reads {
     }
 
     /// The tour of a charger that is out.
-    pub async fn tour_out(
-        &self,
-        n: &NetworkId,
-        c: &ChargerId,
-    ) -> Result<Option<Tour>, StoreError> {
+    pub async fn tour_out(&self, n: &NetworkId, c: &ChargerId) -> Result<Option<Tour>, StoreError> {
         let mut tx = self.pool.begin().await?;
         let out = sqlx::query_scalar::<_, String>(
             "SELECT id FROM tours WHERE network_id = ? AND charger_id = ? AND state = 'out'",
@@ -354,11 +350,7 @@ impl Reads {
         Ok(Some((cells.parsed("id")?, cells.time("heard_us")?)))
     }
 
-    async fn document(
-        &self,
-        id: PlanId,
-        sql: &'static str,
-    ) -> Result<Option<Vec<u8>>, StoreError> {
+    async fn document(&self, id: PlanId, sql: &'static str) -> Result<Option<Vec<u8>>, StoreError> {
         let row = sqlx::query(sql).bind(id.to_string()).fetch_optional(&self.pool).await?;
         row.map(|row| Cells::new("plans", &row).unpacked("document")).transpose()
     }

@@ -35,10 +35,13 @@ pub fn announcement(
     violations.not_negative("timespan_s", announced.timespan_s);
     let kind = network.charger_type(announced.charger_type.as_deref());
     if kind.is_none() {
-        violations.add("charger_type", match &announced.charger_type {
-            Some(name) => format!("{name:?}: no charger type of the network"),
-            None => "missing: required where the network has several charger types".into(),
-        });
+        violations.add(
+            "charger_type",
+            match &announced.charger_type {
+                Some(name) => format!("{name:?}: no charger type of the network"),
+                None => "missing: required where the network has several charger types".into(),
+            },
+        );
     }
     violations.verdict()?;
     Ok(Announcement { charger_type: kind.map(|kind| kind.name.clone()), ..announced.clone() })

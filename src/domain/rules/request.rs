@@ -31,7 +31,8 @@ pub fn request(network: &KnownNetwork, asked: &NewRequest, now: Timestamp) -> Re
         violations.add("measured_at", rule);
     }
     let Some(sensor) = network.sensor(&asked.sensor_id) else {
-        violations.add("sensor_id", format!("{:?}: no sensor of the network", asked.sensor_id.as_str()));
+        violations
+            .add("sensor_id", format!("{:?}: no sensor of the network", asked.sensor_id.as_str()));
         return violations.verdict();
     };
     if let Some(residual_j) = asked.residual_j

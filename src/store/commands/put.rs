@@ -31,7 +31,8 @@ impl Put {
     /// # Errors
     /// It cannot be compressed.
     pub fn new(call: Call<PutNetwork>) -> Result<Self, Refusal> {
-        let failed = |error: String| Refusal::Internal(format!("the spec cannot be packed: {error}"));
+        let failed =
+            |error: String| Refusal::Internal(format!("the spec cannot be packed: {error}"));
         let json = serde_json::to_vec(&call.content.spec).map_err(|e| failed(e.to_string()))?;
         let spec = pack(&json).map_err(|error| failed(error.to_string()))?;
         Ok(Self { fingerprint: call.fingerprint(), spec, call })

@@ -32,8 +32,7 @@ impl<'a> Remembered<'a> {
 
     /// What was kept for the answer, if the call came before.
     pub async fn find<A: DeserializeOwned>(&self, w: &mut Writing) -> Result<Option<A>, Failure> {
-        const SQL: &str =
-            "SELECT fingerprint, answer FROM calls WHERE scope = ? AND client_id = ?";
+        const SQL: &str = "SELECT fingerprint, answer FROM calls WHERE scope = ? AND client_id = ?";
         let row = sqlx::query(SQL).bind(&self.scope).bind(self.client_id.as_str());
         let Some(row) = row.fetch_optional(&mut w.conn).await? else { return Ok(None) };
         let cells = Cells::new("calls", &row);

@@ -31,11 +31,7 @@ pub(super) async fn batched(w: &mut Writing, departure: DepartureId) -> Result<(
     run(w, reopen!("'batched'"), departure).await
 }
 
-async fn run(
-    w: &mut Writing,
-    sql: &'static str,
-    departure: DepartureId,
-) -> Result<(), StoreError> {
+async fn run(w: &mut Writing, sql: &'static str, departure: DepartureId) -> Result<(), StoreError> {
     let (now_us, before) = (w.now_us(), w.changes_before());
     let update = sqlx::query(sql).bind(now_us).bind(before).bind(departure.to_string());
     let done = update.execute(&mut w.conn).await?;

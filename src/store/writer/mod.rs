@@ -6,7 +6,7 @@ mod task;
 mod writing;
 
 pub(crate) use job::{Command, Failure};
+pub(crate) use task::Task;
 pub use task::Writer;
 pub(super) use task::spawn;
-pub(crate) use task::Task;
 pub(crate) use writing::Writing;

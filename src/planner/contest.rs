@@ -1,0 +1,130 @@
+//! The contest: the solver asked for first, and the next contender whenever the independent check
+//! refuses a tour or a solver fails; at last the empty tour. What holds becomes the plan.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Arc;
+
+use jiff::Timestamp;
+use tokio_util::sync::CancellationToken;
+use voltour_solver::check::check;
+use voltour_solver::plan::Plan;
+use voltour_solver::scenario::{Scenario, ScenarioError};
+use voltour_solver::solvers::{Options, Outcome, SolverName, empty_plan, solve};
+
+use super::{record, scenario};
+use crate::clock::{Clock, seconds};
+use crate::store::{Batch, NewPlan};
+
+/// How a batch is planned.
+#[derive(Clone, Debug)]
+pub struct Contest {
+    /// The solver asked for.
+    pub solver: SolverName,
+    /// The seed of its search.
+    pub seed: u64,
+    /// When the search ends.
+    pub until: Timestamp,
+    /// Tells the time.
+    pub clock: Arc<dyn Clock>,
+    /// Ends the search early.
+    pub cancel: CancellationToken,
+}
+
+/// Why a batch has no plan: a defect in every case.
+#[derive(Debug, thiserror::Error)]
+pub enum PlanError {
+    /// The rules of what comes in let something pass.
+    #[error("the batch is no scenario: {0}")]
+    Scenario(#[from] ScenarioError),
+    /// Not even the empty tour is accepted.
+    #[error("the check refuses every tour: {}", .0.join("; "))]
+    Refused(Vec<String>),
+    /// The plan speaks of what is not in the batch, or cannot be packed.
+    #[error("the plan cannot be stored: {0}")]
+    Record(String),
+}
+
+/// A tour that the check accepts.
+pub(super) struct Winner {
+    pub outcome: Outcome,
+    /// Time of its search.
+    pub elapsed_s: f64,
+    /// Why earlier contenders lost.
+    pub refused: Vec<String>,
+}
+
+/// Plans a batch. It computes for as long as the budget lasts: not for an async thread.
+///
+/// # Errors
+/// A defect.
+pub fn plan(batch: &Batch, contest: &Contest) -> Result<NewPlan, PlanError> {
+    let (document, scenario) = scenario::scenario(batch)?;
+    let winner = contest.winner(&scenario)?;
+    record::record(batch, contest, &document, &scenario, winner)
+}
+
+impl Contest {
+    fn winner(&self, scenario: &Scenario) -> Result<Winner, PlanError> {
+        let mut refused = Vec::new();
+        let contenders =
+            [Some(self.solver), Some(SolverName::Baseline), Some(SolverName::Greedy), None];
+        for (i, contender) in contenders.into_iter().enumerate() {
+            if contender.is_some() && contenders.iter().take(i).any(|other| *other == contender) {
+                continue;
+            }
+            let from = self.clock.now();
+            match self.attempt(scenario, contender) {
+                Ok(mut outcome) => {
+                    let elapsed_s = seconds(from, self.clock.now()).max(0.0);
+                    outcome.plan.elapsed_s = elapsed_s;
+                    return Ok(Winner { outcome, elapsed_s, refused });
+                }
+                Err(reason) => {
+                    let name = contender.map_or("empty", SolverName::name);
+                    tracing::error!(
+                        contender = name,
+                        reason,
+                        "a defect: a contender has no tour that holds"
+                    );
+                    refused.push(format!("{name}: {reason}"));
+                }
+            }
+        }
+        Err(PlanError::Refused(refused))
+    }
+
+    /// A contender's outcome, if the check accepts its tour. A panic in a solver is a tour refused.
+    fn attempt(
+        &self,
+        scenario: &Scenario,
+        contender: Option<SolverName>,
+    ) -> Result<Outcome, String> {
+        let run = || match contender {
+            Some(solver) => self.solve(scenario, solver),
+            None => Ok(empty(empty_plan(scenario))),
+        };
+        let judged = || {
+            let outcome = run()?;
+            let broken = check(scenario, &outcome.plan);
+            let broken: Vec<String> = broken.iter().take(10).map(ToString::to_string).collect();
+            if broken.is_empty() { Ok(outcome) } else { Err(broken.join("; ")) }
+        };
+        catch_unwind(AssertUnwindSafe(judged)).unwrap_or_else(|panic| Err(message(&*panic)))
+    }
+
+    fn solve(&self, scenario: &Scenario, solver: SolverName) -> Result<Outcome, String> {
+        let stop = |_: u64| self.cancel.is_cancelled() || self.clock.now() >= self.until;
+        let options = Options { solver, seed: self.seed, stop: &stop };
+        solve(scenario, &options).map_err(|unavailable| unavailable.to_string())
+    }
+}
+
+fn empty(plan: Plan) -> Outcome {
+    Outcome { plan, iterations: Vec::new(), contenders: Vec::new() }
+}
+
+fn message(panic: &(dyn std::any::Any + Send)) -> String {
+    let text = panic.downcast_ref::<&str>().copied();
+    let text = text.or_else(|| panic.downcast_ref::<String>().map(String::as_str));
+    format!("panicked: {}", text.unwrap_or("without a message"))
+}

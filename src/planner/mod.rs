@@ -1,0 +1,10 @@
+//! The planner: from a frozen batch to a plan that holds. Knows the solver and the store's words for a
+//! batch and a plan; waits for nothing and writes nothing.
+
+mod contest;
+mod record;
+mod scenario;
+#[cfg(test)]
+mod tests;
+
+pub use contest::{Contest, PlanError, plan};

@@ -1,0 +1,117 @@
+//! One departure, from the close of its batch to its tour: closed, planned, stored; and again with a
+//! later second 0 where that has passed before the plan was there.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use tokio::sync::Semaphore;
+use tokio_util::sync::CancellationToken;
+
+use super::Settings;
+use crate::clock::{Clock, minus, plus};
+use crate::domain::{Call, CancelDeparture, ClientId, DepartureId, Refusal};
+use crate::planner::{self, Contest, PlanError};
+use crate::store::{Batch, Cancel, CloseBatch, Closing, StorePlan, Storing, Writer};
+
+/// What is left of the time before second 0 for storing the plan.
+const TO_STORE: Duration = Duration::from_millis(500);
+
+/// What a departure needs on its way.
+#[derive(Clone, Debug)]
+pub(super) struct Departing {
+    pub writer: Writer,
+    pub clock: Arc<dyn Clock>,
+    pub settings: Settings,
+    /// As many batches are planned at once.
+    pub planners: Arc<Semaphore>,
+    pub cancel: CancellationToken,
+}
+
+/// Why a departure could not go on now.
+#[derive(Debug, thiserror::Error)]
+pub(super) enum Stuck {
+    #[error("{0}")]
+    Refused(#[from] Refusal),
+    #[error("{0}")]
+    Plan(#[from] PlanError),
+    #[error("the planner's thread failed: {0}")]
+    Thread(#[from] tokio::task::JoinError),
+}
+
+impl Departing {
+    /// Takes a departure as far as it goes now.
+    pub async fn depart(&self, id: DepartureId) -> Result<(), Stuck> {
+        let mut budget = self.settings.budget;
+        loop {
+            // A thread first: a closed batch has no time to wait for one.
+            let Some(_thread) = self.thread().await else { return Ok(()) };
+            let Some(batch) = self.close(id).await? else { return Ok(()) };
+            let start = batch.start;
+            let plan = match self.plan(*batch, budget).await {
+                Err(Stuck::Plan(error)) => return self.give_up(id, &error).await,
+                plan => plan?,
+            };
+            match self.writer.call(StorePlan { departure_id: id, start, plan }).await? {
+                Storing::Stored(tour) => {
+                    tracing::info!(departure = %id, %tour, %start, "planned");
+                    return Ok(());
+                }
+                Storing::Gone => return Ok(()),
+                Storing::Late => {
+                    tracing::warn!(departure = %id, %start, "the plan came after its second 0");
+                    budget /= 2;
+                }
+            }
+        }
+    }
+
+    /// A planner's thread, unless the service ends.
+    async fn thread(&self) -> Option<tokio::sync::OwnedSemaphorePermit> {
+        tokio::select! {
+            biased;
+            () = self.cancel.cancelled() => None,
+            thread = self.planners.clone().acquire_owned() => thread.ok(),
+        }
+    }
+
+    async fn close(&self, id: DepartureId) -> Result<Option<Box<Batch>>, Stuck> {
+        let Settings { lead, max_late, .. } = self.settings;
+        let closing = self.writer.call(CloseBatch { departure_id: id, lead, max_late }).await?;
+        match closing {
+            Closing::Closed(batch) => {
+                let (start, requests) = (batch.start, batch.requests.len());
+                tracing::info!(departure = %id, %start, requests, "closed");
+                Ok(Some(batch))
+            }
+            Closing::Missed => {
+                tracing::warn!(departure = %id, "missed");
+                Ok(None)
+            }
+            Closing::ChargerOut | Closing::Gone => Ok(None),
+        }
+    }
+
+    async fn plan(&self, batch: Batch, budget: Duration) -> Result<crate::store::NewPlan, Stuck> {
+        let contest = Contest {
+            solver: self.settings.solver,
+            seed: self.settings.seed,
+            until: plus(self.clock.now(), budget).min(minus(batch.start, TO_STORE)),
+            clock: self.clock.clone(),
+            cancel: self.cancel.clone(),
+        };
+        Ok(tokio::task::spawn_blocking(move || planner::plan(&batch, &contest)).await??)
+    }
+
+    /// A batch without any plan is a defect; its requests must not wait for it.
+    async fn give_up(&self, id: DepartureId, error: &PlanError) -> Result<(), Stuck> {
+        tracing::error!(departure = %id, %error, "a defect: no plan can be made, cancelling");
+        let reason = "no plan can be made of its batch".to_owned();
+        // An id of the service's own making is one that a client could have made.
+        let client_id: Result<ClientId, _> = format!("service:{id}").parse();
+        if let Ok(client_id) = client_id {
+            let content = CancelDeparture { departure_id: id, reason };
+            self.writer.call(Cancel(Call { client_id, content })).await?;
+        }
+        Ok(())
+    }
+}
