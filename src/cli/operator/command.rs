@@ -18,7 +18,7 @@ pub enum Command {
     #[command(subcommand)]
     Request(request::Command),
     /// Announce a departure: its batch closes, and its tour is planned
-    Depart(depart::Args),
+    Depart(Box<depart::Args>),
     /// Fetch tours from a running service
     #[command(subcommand)]
     Tour(tour::Command),
@@ -33,7 +33,7 @@ pub fn run(command: Command) -> Result<ExitCode, Failure> {
         match command {
             Command::Network(command) => network::run(command).await,
             Command::Request(command) => request::run(command).await,
-            Command::Depart(args) => depart::run(args).await,
+            Command::Depart(args) => depart::run(*args).await,
             Command::Tour(command) => tour::run(command).await,
             Command::Charger(command) => charger::run(command).await,
         }

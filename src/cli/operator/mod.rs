@@ -11,4 +11,6 @@ mod request;
 mod show;
 mod tour;
 
+pub(crate) use arguments::fresh_id;
+pub(crate) use client::{call, connect, refused, unreadable, waiting};
 pub use command::{Command, run};
