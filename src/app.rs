@@ -176,7 +176,7 @@ async fn serve_rest(
     handle: Handle,
     stop: CancellationToken,
 ) -> Result<(), AppError> {
-    let router = rest::router(handle.reads().clone(), stop.clone());
+    let router = rest::router(rest::RestState::new(handle.reads().clone(), stop.clone()));
     axum::serve(listener, router)
         .with_graceful_shutdown(stop.cancelled_owned())
         .await
