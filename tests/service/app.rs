@@ -77,8 +77,7 @@ impl TestApp {
         let config = settings.toml(&dir.path().join("voltour.db"));
         fs::write(dir.path().join("voltour.toml"), config).expect("the configuration is written");
         let channel = Endpoint::from_static("http://127.0.0.1:1").connect_lazy();
-        let mut app =
-            Self { dir, child: None, channel, grpc: String::new(), rest: String::new() };
+        let mut app = Self { dir, child: None, channel, grpc: String::new(), rest: String::new() };
         app.launch().await;
         app
     }

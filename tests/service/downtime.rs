@@ -21,7 +21,10 @@ async fn a_batch_that_should_have_closed_while_it_was_down_is_planned_late() {
     assert_eq!(sensors(&tour), ["s1"]);
     let stored = app.departure(&announced.id).await;
     assert_eq!(us(&stored.t0), us(&announced.t0), "what was announced stays");
-    assert!(us(&stored.start) >= back + 400_000, "nothing is planned from a second 0 that has passed");
+    assert!(
+        us(&stored.start) >= back + 400_000,
+        "nothing is planned from a second 0 that has passed"
+    );
     assert_eq!(us(&stored.start), us(&tour.start));
     assert_eq!(app.state(&asked.id).await, PLANNED);
 }

@@ -50,10 +50,7 @@ async fn it_waits_no_longer_than_the_caller() {
     short.set_timeout(Duration::from_millis(300));
     let refused = soon("the caller's deadline", app.tours().get_next(short)).await.unwrap_err();
     // Either side may notice first, and tonic's own limit has a code of its own.
-    assert!(
-        matches!(refused.code(), Code::DeadlineExceeded | Code::Cancelled),
-        "{refused}"
-    );
+    assert!(matches!(refused.code(), Code::DeadlineExceeded | Code::Cancelled), "{refused}");
 }
 
 #[tokio::test]
@@ -82,7 +79,8 @@ async fn the_same_tour_is_returned_again_also_after_a_crash() {
 async fn a_cancelled_departure_keeps_nobody_waiting() {
     let app = TestApp::start().await;
     app.put(line(1)).await;
-    let announced = app.announce(AnnounceRequest { t0: from_now(3_600_000), ..departure("A") }).await;
+    let announced =
+        app.announce(AnnounceRequest { t0: from_now(3_600_000), ..departure("A") }).await;
     let (mut tours, waiting) = (app.tours(), next("A"));
     let waiting = tokio::spawn(async move { tours.get_next(waiting).await });
     tokio::time::sleep(Duration::from_millis(200)).await;

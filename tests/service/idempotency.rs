@@ -11,8 +11,7 @@ use voltour::proto::{
 use crate::app::TestApp;
 use crate::calls::{PLANNED, SUPERSEDED, WITHDRAWN};
 use crate::field::{
-    self, FIELD, cancellation, completion, departure, fresh, line, point, put, request,
-    withdrawal,
+    self, FIELD, cancellation, completion, departure, fresh, line, point, put, request, withdrawal,
 };
 use crate::time::{from_now, now_us, wire};
 
@@ -86,7 +85,9 @@ async fn submit_twice() {
     assert_eq!(app.submit(call.clone()).await, first);
     let refused = SubmitRequest { required: true, ..call.clone() };
     already_exists(app.requests().submit(refused).await);
-    already_exists(app.requests().submit(SubmitRequest { sensor_id: "s2".into(), ..call.clone() }).await);
+    already_exists(
+        app.requests().submit(SubmitRequest { sensor_id: "s2".into(), ..call.clone() }).await,
+    );
     // A repeated call is not a newer request.
     let newer = app.ask("s1").await;
     let again = app.submit(call).await;
@@ -216,9 +217,7 @@ async fn complete_twice() {
     assert_eq!(again, first);
     assert_eq!(app.state(&asked.id).await, PLANNED, "the repeated call opened nothing");
     already_exists(
-        app.tours()
-            .complete(voltour::proto::CompleteRequest { tour_id: next.id, ..call })
-            .await,
+        app.tours().complete(voltour::proto::CompleteRequest { tour_id: next.id, ..call }).await,
     );
 }
 

@@ -3,9 +3,7 @@
 use voltour::proto::{DepartureState, ReportVisitRequest, SubmitRequest, TourState, VisitOutcome};
 
 use crate::app::TestApp;
-use crate::calls::{
-    EXPIRED, OPEN, PLANNED, SERVED, SUPERSEDED, WITHDRAWN, listed, sensors,
-};
+use crate::calls::{EXPIRED, OPEN, PLANNED, SERVED, SUPERSEDED, WITHDRAWN, listed, sensors};
 use crate::field::{self, line, point, request};
 use crate::time::{from_now, us};
 

@@ -64,7 +64,10 @@ async fn requests_are_filtered_by_state_and_sensor() {
         (list(&[Served], ""), vec![]),
         (list(&[], "s3"), vec![]),
         (ListRequestsRequest { network_id: "other".into(), ..list(&[], "") }, vec![]),
-        (ListRequestsRequest { network_id: String::new(), ..list(&[Superseded], "") }, vec![&old.id]),
+        (
+            ListRequestsRequest { network_id: String::new(), ..list(&[Superseded], "") },
+            vec![&old.id],
+        ),
     ] {
         let page = app.requests().list(filter.clone()).await.unwrap().into_inner();
         let ids: Vec<_> = page.requests.iter().map(|request| &request.id).collect();

@@ -41,7 +41,8 @@ async fn sigterm_ends_it_cleanly_and_loses_nothing() {
     let mut app = TestApp::start().await;
     app.put(line(1)).await;
     let asked = app.ask("s1").await;
-    let announced = app.announce(AnnounceRequest { t0: from_now(3_600_000), ..departure("A") }).await;
+    let announced =
+        app.announce(AnnounceRequest { t0: from_now(3_600_000), ..departure("A") }).await;
     // Somebody who watches or waits does not keep it from ending.
     let watch = WatchRequestsRequest { network_id: FIELD.into() };
     let mut watching = app.requests().watch(watch).await.unwrap().into_inner();

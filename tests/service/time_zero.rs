@@ -20,7 +20,11 @@ async fn without_t0_a_charger_leaves_a_lead_from_now() {
     let after = now_us();
     assert!((before + LEAD..=after + LEAD).contains(&us(&announced.t0)));
     assert_eq!(us(&announced.t0) - us(&announced.closes_at), LEAD);
-    assert_eq!(announced.announced.as_ref().unwrap().t0, None, "what was announced is kept as it was");
+    assert_eq!(
+        announced.announced.as_ref().unwrap().t0,
+        None,
+        "what was announced is kept as it was"
+    );
     let tour = app.tour(&announced).await;
     let stored = app.departure(&announced.id).await;
     assert!(us(&stored.closes_at) >= us(&announced.closes_at), "never closes early");
@@ -34,8 +38,7 @@ async fn a_batch_stays_open_until_a_lead_before_t0() {
     app.put(line(2)).await;
     // Whole microseconds: that is what is stored.
     let t0 = now_us() + 3_000_000;
-    let announced =
-        app.announce(AnnounceRequest { t0: Some(wire(t0)), ..departure("A") }).await;
+    let announced = app.announce(AnnounceRequest { t0: Some(wire(t0)), ..departure("A") }).await;
     assert_eq!(announced.state, DepartureState::Announced as i32);
     assert_eq!((us(&announced.t0), us(&announced.closes_at)), (t0, t0 - LEAD));
     assert!(announced.start.is_none());
@@ -56,8 +59,7 @@ async fn a_t0_that_has_just_passed_is_planned_from_a_second_0_to_come() {
     app.put(line(1)).await;
     app.ask("s1").await;
     let before = now_us();
-    let announced =
-        app.announce(AnnounceRequest { t0: from_now(-20_000), ..departure("A") }).await;
+    let announced = app.announce(AnnounceRequest { t0: from_now(-20_000), ..departure("A") }).await;
     let tour = app.tour(&announced).await;
     assert_eq!(sensors(&tour), ["s1"]);
     assert!(us(&tour.start) >= before + LEAD);

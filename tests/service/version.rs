@@ -44,7 +44,8 @@ async fn only_other_content_makes_a_new_version() {
 #[tokio::test]
 async fn the_expected_version_must_be_the_present_one() {
     let app = TestApp::start().await;
-    let expecting = |version, spec| PutNetworkRequest { expected_version: Some(version), ..put(spec) };
+    let expecting =
+        |version, spec| PutNetworkRequest { expected_version: Some(version), ..put(spec) };
     let refused = app.networks().put(expecting(1, line(1))).await.unwrap_err();
     assert_eq!(refused.code(), Code::Aborted, "there is none yet");
     app.networks().put(expecting(0, line(1))).await.unwrap();

@@ -73,8 +73,7 @@ async fn a_watch_sees_its_network_alone() {
     let other = voltour::proto::PutNetworkRequest { network_id: "other".into(), ..put(line(1)) };
     app.networks().put(other).await.unwrap();
     let mut watch = requests(&app).await;
-    let elsewhere =
-        voltour::proto::SubmitRequest { network_id: "other".into(), ..request("s1") };
+    let elsewhere = voltour::proto::SubmitRequest { network_id: "other".into(), ..request("s1") };
     app.submit(elsewhere).await;
     silent(&mut watch).await;
 }

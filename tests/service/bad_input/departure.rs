@@ -96,7 +96,6 @@ async fn cancel_get_and_watch_name_the_field() {
     assert_eq!(app.departures().cancel(call).await.unwrap_err().code(), Code::NotFound);
     let get = GetDepartureRequest { departure_id: unknown };
     assert_eq!(app.departures().get(get).await.unwrap_err().code(), Code::NotFound);
-    let watch =
-        WatchDeparturesRequest { network_id: "nowhere".into(), charger_id: String::new() };
+    let watch = WatchDeparturesRequest { network_id: "nowhere".into(), charger_id: String::new() };
     assert_eq!(app.departures().watch(watch).await.unwrap_err().code(), Code::NotFound);
 }

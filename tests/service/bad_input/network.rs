@@ -1,8 +1,8 @@
 //! Of NetworkService.
 
 use voltour::proto::{
-    ChargerType, Coverage, GetNetworkRequest, ListNetworksRequest, NetworkSpec, Place, Point, PutNetworkRequest,
-    SensorTrajectory, Trajectory, UpdateTrajectoryRequest, Waypoint, place,
+    ChargerType, Coverage, GetNetworkRequest, ListNetworksRequest, NetworkSpec, Place, Point,
+    PutNetworkRequest, SensorTrajectory, Trajectory, UpdateTrajectoryRequest, Waypoint, place,
 };
 
 use super::{NO_NUMBERS, bad_ids, refused};
@@ -68,10 +68,13 @@ fn bad_specs() -> Vec<(&'static str, Edit)> {
             "spec.coverage.field_m",
             edit(|s| cover(s, &[(0.0, 0.0), (9.0, 9.0), (9.0, 0.0), (0.0, 9.0)])),
         ),
-        ("spec.sensors[1].range_m", edit(|s| {
-            *s = covered(3, 1);
-            s.sensors[1].range_m = None;
-        })),
+        (
+            "spec.sensors[1].range_m",
+            edit(|s| {
+                *s = covered(3, 1);
+                s.sensors[1].range_m = None;
+            }),
+        ),
     ];
     for value in NO_NUMBERS {
         all.extend([
@@ -144,8 +147,11 @@ async fn every_broken_rule_is_named_at_once() {
 async fn a_sensor_must_be_slower_than_every_charger() {
     let app = TestApp::start().await;
     let mut spec = line(2);
-    spec.charger_types
-        .push(ChargerType { name: "bicycle".into(), speed_mps: 4.0, ..charger_type() });
+    spec.charger_types.push(ChargerType {
+        name: "bicycle".into(),
+        speed_mps: 4.0,
+        ..charger_type()
+    });
     spec.sensors[1].place = moving(&[(0, 0.0), (10, 30.0), (20, 80.0)]);
     let status = app.networks().put(put(spec)).await.unwrap_err();
     let named = super::violations(&status);
@@ -193,10 +199,7 @@ async fn update_trajectory_names_the_field() {
             "trajectories[1].trajectory.waypoints[0].position_m.x_m",
             one("s2", Some(path(&[(0, f64::NAN)]))),
         ),
-        (
-            "client_id",
-            UpdateTrajectoryRequest { client_id: String::new(), ..one("s2", fine()) },
-        ),
+        ("client_id", UpdateTrajectoryRequest { client_id: String::new(), ..one("s2", fine()) }),
     ] {
         refused(app.networks().update_trajectory(call).await, field);
     }
@@ -204,8 +207,7 @@ async fn update_trajectory_names_the_field() {
     let status = app.networks().update_trajectory(fast).await.unwrap_err();
     let named = super::violations(&status);
     assert!(named[0].starts_with("trajectories[1].trajectory"), "{named:?}");
-    let elsewhere =
-        UpdateTrajectoryRequest { network_id: "nowhere".into(), ..one("s2", fine()) };
+    let elsewhere = UpdateTrajectoryRequest { network_id: "nowhere".into(), ..one("s2", fine()) };
     let status = app.networks().update_trajectory(elsewhere).await.unwrap_err();
     assert_eq!(status.code(), tonic::Code::NotFound);
 }

@@ -98,8 +98,7 @@ async fn a_request_may_not_move_its_sensor_under_a_coverage_constraint() {
     };
     let trajectory = voltour::proto::Trajectory { waypoints: vec![waypoint] };
     let place = Some(Place { place: Some(place::Place::Trajectory(trajectory)) });
-    let status =
-        app.requests().submit(SubmitRequest { place, ..request("s1") }).await.unwrap_err();
+    let status = app.requests().submit(SubmitRequest { place, ..request("s1") }).await.unwrap_err();
     let named = super::violations(&status);
     assert!(named.len() == 1 && named[0].starts_with("place"), "{named:?}");
 }

@@ -115,7 +115,10 @@ impl Charger {
         match self.stage.clone() {
             Stage::Announce(call) => {
                 let departure = departures.announce(call.clone()).await?.into_inner();
-                assert_eq!(departure.announced.as_ref().map(|a| &a.client_id), Some(&call.client_id));
+                assert_eq!(
+                    departure.announced.as_ref().map(|a| &a.client_id),
+                    Some(&call.client_id)
+                );
                 if let Some(killed) = killed {
                     killed.announced(us(&departure.closes_at));
                 }

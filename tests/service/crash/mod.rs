@@ -11,7 +11,6 @@
 
 mod aim;
 mod charger;
-mod database;
 mod phase;
 mod rng;
 mod rules;
@@ -68,12 +67,8 @@ impl Drop for Naming {
 /// Trials on one database, and the end of everything that they began.
 async fn run_round(seeds: std::ops::Range<u64>, struck: &mut Struck) {
     let naming = Naming(seeds.start);
-    let settings = Settings {
-        solver: "baseline",
-        budget: "120ms",
-        lead: "300ms",
-        ..Settings::default()
-    };
+    let settings =
+        Settings { solver: "baseline", budget: "120ms", lead: "300ms", ..Settings::default() };
     let mut app = TestApp::with(settings).await;
     app.put(network()).await;
     let mut station = Station::new(seeds.start);

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use sqlx::Connection;
 
-use super::database::{open, rows};
+use crate::database::{open, rows};
 
 /// At every moment.
 const NEVER: [(&str, &str); 12] = [
@@ -12,10 +12,7 @@ const NEVER: [(&str, &str); 12] = [
         "a departure with two plans of one revision",
         "SELECT departure_id, CAST(revision AS TEXT) FROM plans GROUP BY 1, 2 HAVING count(*) > 1",
     ),
-    (
-        "a departure with two plans",
-        "SELECT departure_id FROM plans GROUP BY 1 HAVING count(*) > 1",
-    ),
+    ("a departure with two plans", "SELECT departure_id FROM plans GROUP BY 1 HAVING count(*) > 1"),
     (
         "a request that is a stop of two tours that are out",
         "SELECT s.request_id FROM stops s JOIN tours t ON t.id = s.tour_id

@@ -7,7 +7,7 @@ use tonic::Request;
 use voltour::proto::{ChargingRequest, GetNextRequest, ListRequestsRequest, Tour};
 
 use super::charger::Charger;
-use super::database::{open, rows};
+use crate::database::{open, rows};
 use super::station::Station;
 use crate::app::{PATIENCE, TestApp};
 use crate::field::FIELD;
@@ -73,7 +73,8 @@ async fn on_its_way(app: &TestApp, charger: &Charger) {
 
 async fn reported(app: &TestApp, chargers: &[Charger]) {
     let mut conn = open(&app.database()).await;
-    let visits = rows(&mut conn, "SELECT id, tour_id, client_id, sensor_id, outcome FROM visits").await;
+    let visits =
+        rows(&mut conn, "SELECT id, tour_id, client_id, sensor_id, outcome FROM visits").await;
     let visits: HashMap<_, _> = visits.iter().map(|row| (row[0].as_str(), &row[1..])).collect();
     let states = rows(&mut conn, "SELECT id, state FROM tours").await;
     let states: HashMap<_, _> = states.iter().map(|row| (row[0].as_str(), &row[1])).collect();

@@ -70,8 +70,10 @@ async fn of_a_departure_its_tour_and_its_plan() {
         app.ask(sensor).await;
     }
     let tour = app.drive("A").await;
-    let skipped =
-        ReportVisitRequest { note: "a gate".into(), ..visit(&tour.id, "s3", VisitOutcome::Skipped) };
+    let skipped = ReportVisitRequest {
+        note: "a gate".into(),
+        ..visit(&tour.id, "s3", VisitOutcome::Skipped)
+    };
     app.tours().report_visit(skipped).await.unwrap();
 
     let departure = app.departure(&tour.departure_id).await;
@@ -90,7 +92,10 @@ async fn of_a_departure_its_tour_and_its_plan() {
 
     let read = app.json(&format!("/v1/tours/{}", tour.id)).await;
     assert_eq!((&read["state"], &read["charger_id"]), (&"out".into(), &"A".into()));
-    assert_eq!((micros(&read["start"]), micros(&read["finish"])), (us(&tour.start), us(&tour.finish)));
+    assert_eq!(
+        (micros(&read["start"]), micros(&read["finish"])),
+        (us(&tour.start), us(&tour.finish))
+    );
     assert_eq!(read["distance_m"], tour.distance_m);
     let stops = read["stops"].as_array().unwrap();
     assert_eq!(stops.len(), tour.stops.len());

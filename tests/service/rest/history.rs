@@ -38,7 +38,14 @@ async fn checks_and_repeats(app: &TestApp, tour: &Tour) {
     let asked = provenance["asked"].as_str().unwrap();
     let (seed, iterations) = (number("seed"), number("iterations"));
     let again = voltour(&[
-        "solve", &scenario, "--solver", asked, "--seed", &seed, "--iterations", &iterations,
+        "solve",
+        &scenario,
+        "--solver",
+        asked,
+        "--seed",
+        &seed,
+        "--iterations",
+        &iterations,
     ]);
     let said = String::from_utf8_lossy(&again.stderr);
     let again: Value = serde_json::from_slice(&again.stdout)

@@ -14,7 +14,7 @@ async fn requests_page_by_page_while_more_come_in() {
     }
     before.reverse();
     let mut number = 24;
-    let found = walk(&app, &format!("/v1/requests?network_id={FIELD}"), 3, async || {
+    let found = walk(&app, &format!("/v1/requests?network={FIELD}"), 3, async || {
         app.ask(&sensor(number).id).await;
         app.withdraw(&before[before.len() - (number - 23)]).await;
         number += 1;
@@ -75,17 +75,17 @@ async fn filters_let_pass_what_they_name() {
     let none: [&str; 0] = [];
     for (path, expected) in [
         ("requests?state=served".to_owned(), vec![new.as_str()]),
-        ("requests?state=served,superseded".to_owned(), vec![&new, &old]),
-        ("requests?sensor_id=s2".to_owned(), vec![&other]),
-        ("requests?network_id=nowhere".to_owned(), none.to_vec()),
-        (format!("requests?network_id={FIELD}&sensor_id=s1&state=superseded"), vec![&old]),
+        ("requests?state=served&state=superseded".to_owned(), vec![&new, &old]),
+        ("requests?sensor=s2".to_owned(), vec![&other]),
+        ("requests?network=nowhere".to_owned(), none.to_vec()),
+        (format!("requests?network={FIELD}&sensor=s1&state=superseded"), vec![&old]),
         ("departures?state=completed".to_owned(), vec![&first.departure_id]),
-        ("departures?charger_id=B".to_owned(), vec![&second.departure_id]),
-        ("departures?charger_id=C".to_owned(), none.to_vec()),
-        ("plans?charger_id=A".to_owned(), vec![&first.plan_id]),
-        ("plans?network_id=nowhere".to_owned(), none.to_vec()),
-        ("plans?solver=nobody".to_owned(), none.to_vec()),
-        (format!("plans?solver={}&charger_id=B", second.solver), vec![&second.plan_id]),
+        ("departures?charger=B".to_owned(), vec![&second.departure_id]),
+        ("departures?charger=C".to_owned(), none.to_vec()),
+        ("plans?charger=A".to_owned(), vec![&first.plan_id]),
+        ("plans?network=nowhere".to_owned(), none.to_vec()),
+        ("plans?solver=random".to_owned(), none.to_vec()),
+        (format!("plans?solver={}&charger=B", second.solver), vec![&second.plan_id]),
         ("plans?status=infeasible".to_owned(), none.to_vec()),
         (format!("plans?from={between}"), vec![&second.plan_id]),
         (format!("plans?until={between}"), vec![&first.plan_id]),

@@ -13,7 +13,12 @@ use serde_json::Value;
 use crate::app::TestApp;
 
 /// Every item of a list, page by page; `between` is called after each page.
-async fn walk(app: &TestApp, path: &str, limit: usize, mut between: impl AsyncFnMut()) -> Vec<Value> {
+async fn walk(
+    app: &TestApp,
+    path: &str,
+    limit: usize,
+    mut between: impl AsyncFnMut(),
+) -> Vec<Value> {
     let glue = if path.contains('?') { '&' } else { '?' };
     let (mut items, mut cursor) = (Vec::new(), None);
     loop {

@@ -12,11 +12,11 @@ const UNKNOWN: &str = "0190163d-8694-739b-8ca7-c9f6e6a7b0a1";
 async fn there_is_no_such_thing() {
     let app = TestApp::start().await;
     app.put(line(1)).await;
-    for path in ["networks", "requests", "departures", "tours", "plans"] {
+    for path in ["networks", "requests", "departures", "plans"] {
         problem(&app, &format!("/v1/{path}/{UNKNOWN}"), StatusCode::NOT_FOUND).await;
     }
     problem(&app, &format!("/v1/plans/{UNKNOWN}/scenario"), StatusCode::NOT_FOUND).await;
-    problem(&app, &format!("/v1/plans/{UNKNOWN}/map.svg"), StatusCode::NOT_FOUND).await;
+    problem(&app, &format!("/v1/plans/{UNKNOWN}.svg"), StatusCode::NOT_FOUND).await;
     problem(&app, "/v1/nothing", StatusCode::NOT_FOUND).await;
     problem(&app, "/", StatusCode::NOT_FOUND).await;
 }
@@ -34,17 +34,18 @@ async fn what_is_wrong_with_a_query_is_named() {
         ("requests?state=hungry", "state"),
         ("departures?state=open", "state"),
         ("plans?status=fine", "status"),
+        ("plans?solver=nobody", "solver"),
         ("plans?from=yesterday", "from"),
         ("plans?until=2026-13-01T00:00:00Z", "until"),
-        ("requests?network_id=no%20network", "network_id"),
-        ("departures?charger_id=no%20charger", "charger_id"),
+        ("requests?network=no%20network", "network"),
+        ("departures?charger=no%20charger", "charger"),
         ("requests?colour=red", "colour"),
     ] {
         let problem = problem(&app, &format!("/v1/{path}"), StatusCode::BAD_REQUEST).await;
         let said = problem.to_string();
         assert!(said.contains(named), "{path}: {said}");
     }
-    for path in ["requests/7", "departures/x", "tours/7", "plans/7"] {
+    for path in ["requests/7", "departures/x", "plans/7", "plans/7.svg"] {
         problem(&app, &format!("/v1/{path}"), StatusCode::BAD_REQUEST).await;
     }
 }
