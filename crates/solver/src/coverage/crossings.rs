@@ -17,16 +17,16 @@ pub(super) fn circle_circle(
 ) -> impl Iterator<Item = Point> {
     let between = other - centre;
     let distance = between.norm();
-    // Factors of four areas (Heron): each keeps its digits near a tangency, where their product
-    // would lose them if it were computed as a difference of squares.
-    let outer = radius + range - distance;
-    let inner = (distance + range - radius).min(distance + radius - range);
-    let meets = distance > 0.0 && outer >= -tolerance && inner >= -tolerance;
+    // The factors of four areas (Heron) keep their digits near a tangency, and for circles that nearly
+    // coincide, where differences of squares would lose them. The difference of the ranges comes first.
+    let sum = radius + range;
+    let difference = range - radius;
+    let outer = sum - distance;
+    let meets = distance > 0.0 && outer >= -tolerance && distance - difference.abs() >= -tolerance;
     let axis = if meets { between / distance } else { Vector2::zeros() };
-    let along = 0.5 * (distance + (radius - range) * (radius + range) / distance);
-    let product = outer * (distance + range - radius) * (distance + radius - range);
-    let squared = product * (distance + radius + range) / (4.0 * distance * distance);
-    let across = if product > 0.0 { squared.sqrt() } else { 0.0 };
+    let along = 0.5 * (distance - difference * (sum / distance));
+    let product = outer * (sum + distance) * (distance + difference) * (distance - difference);
+    let across = product.max(0.0).sqrt() / (2.0 * distance);
     on_both_sides(meets, centre + axis * along.clamp(-radius, radius), axis, across)
 }
 

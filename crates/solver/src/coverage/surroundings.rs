@@ -27,7 +27,7 @@ pub(super) struct Surroundings {
     pub(super) reach: f64,
     /// Within it a curve counts as passing through a vertex.
     pub(super) tolerance: f64,
-    /// Rounding of the distance to an edge, and of moving into the frame.
+    /// Rounding of the distance to an edge, here and for whoever computes it in world coordinates.
     margin: f64,
     /// Where no edge is near: whether this part lies inside the field.
     inside: bool,
@@ -44,7 +44,7 @@ impl Surroundings {
     }
 
     fn new(curves: &Curves, centre: Point, range: f64, reach: f64) -> Self {
-        let Curves { border, disks, .. } = curves;
+        let Curves { frame, border, disks } = curves;
         let near = disks.near(centre, range + reach);
         let take = |part: fn(Point, f64) -> f64| -> Vec<f64> {
             let disks = near.iter().map(|&i| disks.get(i));
@@ -60,7 +60,7 @@ impl Surroundings {
             edges,
             reach,
             tolerance: LEAST_TOLERANCE.max(DRIFT * (border.scale() + range)),
-            margin: ROUNDING * border.extent(),
+            margin: ROUNDING * border.extent().max(0.25 * frame.distance()),
             inside,
         }
     }
