@@ -3,6 +3,7 @@
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
+use std::time::Duration;
 
 use jiff::Timestamp;
 use tokio_util::sync::CancellationToken;
@@ -12,7 +13,7 @@ use voltour_solver::scenario::{Scenario, ScenarioError};
 use voltour_solver::solvers::{Options, Outcome, SolverName, empty_plan, solve};
 
 use super::{record, scenario};
-use crate::clock::{Clock, seconds};
+use crate::clock::{Clock, plus, seconds};
 use crate::store::{Batch, NewPlan};
 
 /// How a batch is planned.
@@ -22,13 +23,18 @@ pub struct Contest {
     pub solver: SolverName,
     /// The seed of its search.
     pub seed: u64,
-    /// When the search ends.
-    pub until: Timestamp,
+    /// How long its search takes at most; the next contenders get a part of it each.
+    pub budget: Duration,
+    /// When every search ends.
+    pub latest: Timestamp,
     /// Tells the time.
     pub clock: Arc<dyn Clock>,
     /// Ends the search early.
     pub cancel: CancellationToken,
 }
+
+/// The part of the budget that each next contender gets.
+const PART: u32 = 8;
 
 /// Why a batch has no plan: a defect in every case.
 #[derive(Debug, thiserror::Error)]
@@ -73,7 +79,8 @@ impl Contest {
                 continue;
             }
             let from = self.clock.now();
-            match self.attempt(scenario, contender) {
+            let budget = if i == 0 { self.budget } else { self.budget / PART };
+            match self.attempt(scenario, contender, plus(from, budget).min(self.latest)) {
                 Ok(mut outcome) => {
                     let elapsed_s = seconds(from, self.clock.now()).max(0.0);
                     outcome.plan.elapsed_s = elapsed_s;
@@ -98,9 +105,10 @@ impl Contest {
         &self,
         scenario: &Scenario,
         contender: Option<SolverName>,
+        until: Timestamp,
     ) -> Result<Outcome, String> {
         let run = || match contender {
-            Some(solver) => self.solve(scenario, solver),
+            Some(solver) => self.solve(scenario, solver, until),
             None => Ok(empty(empty_plan(scenario))),
         };
         let judged = || {
@@ -112,8 +120,13 @@ impl Contest {
         catch_unwind(AssertUnwindSafe(judged)).unwrap_or_else(|panic| Err(message(&*panic)))
     }
 
-    fn solve(&self, scenario: &Scenario, solver: SolverName) -> Result<Outcome, String> {
-        let stop = |_: u64| self.cancel.is_cancelled() || self.clock.now() >= self.until;
+    fn solve(
+        &self,
+        scenario: &Scenario,
+        solver: SolverName,
+        until: Timestamp,
+    ) -> Result<Outcome, String> {
+        let stop = |_: u64| self.cancel.is_cancelled() || self.clock.now() >= until;
         let options = Options { solver, seed: self.seed, stop: &stop };
         solve(scenario, &options).map_err(|unavailable| unavailable.to_string())
     }

@@ -8,7 +8,7 @@ use tokio::sync::Semaphore;
 use tokio_util::sync::CancellationToken;
 
 use super::Settings;
-use crate::clock::{Clock, minus, plus};
+use crate::clock::{Clock, minus};
 use crate::domain::{Call, CancelDeparture, ClientId, DepartureId, Refusal};
 use crate::planner::{self, Contest, PlanError};
 use crate::store::{Batch, Cancel, CloseBatch, Closing, StorePlan, Storing, Writer};
@@ -95,7 +95,8 @@ impl Departing {
         let contest = Contest {
             solver: self.settings.solver,
             seed: self.settings.seed,
-            until: plus(self.clock.now(), budget).min(minus(batch.start, TO_STORE)),
+            budget,
+            latest: minus(batch.start, TO_STORE),
             clock: self.clock.clone(),
             cancel: self.cancel.clone(),
         };

@@ -108,6 +108,11 @@ impl Bench {
         Self { dir, clock, store, calls }
     }
 
+    /// To start a scheduler on.
+    pub fn parts(self) -> (TempDir, Arc<ManualClock>, Store) {
+        (self.dir, self.clock, self.store)
+    }
+
     /// A client id that was not used before.
     pub fn fresh(&self) -> String {
         format!("call-{}", self.calls.fetch_add(1, std::sync::atomic::Ordering::Relaxed))

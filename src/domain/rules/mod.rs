@@ -6,6 +6,8 @@ mod known;
 mod network;
 mod path;
 mod request;
+#[cfg(test)]
+mod tests;
 mod visit;
 
 pub use announcement::announcement;

@@ -32,7 +32,7 @@ fn of_sensor(path: &str) -> Option<(usize, &str)> {
 /// `trajectory[3]` is a waypoint of a place here.
 fn place(rest: &str) -> String {
     match rest.strip_prefix("trajectory") {
-        Some(row) if row.is_empty() => "place.trajectory".into(),
+        Some("") => "place.trajectory".into(),
         Some(row) => format!("place.trajectory.waypoints{row}"),
         None if rest == "position_m" => "place.position_m".into(),
         None => rest.into(),

@@ -3,6 +3,8 @@
 
 mod job;
 mod task;
+#[cfg(test)]
+mod tests;
 mod writing;
 
 pub(crate) use job::{Command, Failure};

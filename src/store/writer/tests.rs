@@ -1,0 +1,123 @@
+//! The writer under what can go wrong: a command that breaks its transaction, a commit that fails, a
+//! second process, the end of the service.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use super::{Command, Failure, Writing};
+use crate::clock::SystemClock;
+use crate::domain::Refusal;
+use crate::store::fixture::{Bench, asks, call};
+use crate::store::{Store, StoreError, Submit};
+
+/// Keeps the writer busy, so that what is called meanwhile is one group.
+struct Dawdle;
+
+impl Command for Dawdle {
+    type Answer = ();
+
+    async fn apply(&self, _: &mut Writing) -> Result<(), Failure> {
+        tokio::time::sleep(Duration::from_millis(100)).await;
+        Ok(())
+    }
+}
+
+/// Writes something, then breaks its transaction.
+struct Break;
+
+impl Command for Break {
+    type Answer = ();
+
+    async fn apply(&self, w: &mut Writing) -> Result<(), Failure> {
+        sqlx::query("UPDATE networks SET version = 77").execute(&mut w.conn).await?;
+        sqlx::query("INSERT INTO networks (id) VALUES (NULL)").execute(&mut w.conn).await?;
+        Ok(())
+    }
+}
+
+/// Writes what makes the commit itself fail.
+struct FailCommit;
+
+impl Command for FailCommit {
+    type Answer = ();
+
+    async fn apply(&self, w: &mut Writing) -> Result<(), Failure> {
+        sqlx::query("PRAGMA defer_foreign_keys = ON").execute(&mut w.conn).await?;
+        sqlx::query("INSERT INTO trajectories VALUES ('nowhere', 's', '[]', 0)")
+            .execute(&mut w.conn)
+            .await?;
+        Ok(())
+    }
+}
+
+#[tokio::test]
+async fn a_command_that_breaks_its_transaction_takes_nobody_with_it() {
+    let bench = Bench::new().await;
+    let writer = &bench.store.writer;
+    let submit = |sensor: &str| writer.call(Submit::new(call(sensor, asks(sensor))));
+    let (_, first, broken, second) =
+        tokio::join!(writer.call(Dawdle), submit("s1"), writer.call(Break), submit("s2"));
+    assert!(matches!(broken, Err(Refusal::Internal(_) | Refusal::Unavailable(_))), "{broken:?}");
+    let (first, second) = (first.unwrap(), second.unwrap());
+    assert!(first.change < second.change);
+    for stored in [&first, &second] {
+        let read = bench.store.reads.request(stored.id).await.unwrap();
+        assert_eq!(read.as_ref(), Some(stored));
+    }
+    let network = bench.store.reads.network(&"net".parse().unwrap()).await.unwrap().unwrap();
+    assert_eq!(network.version, 1, "what the broken one wrote is gone");
+}
+
+#[tokio::test]
+async fn after_a_failed_commit_nothing_is_acknowledged_until_the_database_is_verified() {
+    let bench = Bench::new().await;
+    let before = bench.submit("s0").await;
+    let writer = &bench.store.writer;
+    let submit = |sensor: &str| writer.call(Submit::new(call(sensor, asks(sensor))));
+    let (_, lost, failed) =
+        tokio::join!(writer.call(Dawdle), submit("s1"), writer.call(FailCommit));
+    assert!(matches!(lost, Err(Refusal::Unavailable(_))), "{lost:?}");
+    assert!(matches!(failed, Err(Refusal::Unavailable(_))), "{failed:?}");
+    let again = submit("s1").await.unwrap();
+    assert_eq!(again.change, before.change + 1);
+    assert!(again.id > before.id);
+    assert_eq!(bench.state(again.id).await, crate::domain::RequestState::Open);
+}
+
+#[tokio::test]
+async fn a_second_process_is_refused() {
+    let bench = Bench::new().await;
+    let path = bench.dir.path().join("db");
+    let second = Store::open(&path, Arc::new(SystemClock)).await;
+    assert!(matches!(second, Err(StoreError::InUse(_))), "{second:?}");
+    let bench = bench.reopened().await;
+    bench.submit("s0").await;
+}
+
+#[tokio::test]
+async fn the_change_goes_on_after_a_restart() {
+    let bench = Bench::new().await;
+    let first = bench.submit("s1").await;
+    bench.tour("c", &["s1"]).await;
+    let last = *bench.store.writer.changes().borrow();
+    let bench = bench.reopened().await;
+    assert_eq!(*bench.store.writer.changes().borrow(), last);
+    assert!(first.change < last && bench.submit("s2").await.change == last + 1);
+}
+
+#[tokio::test]
+async fn at_the_end_the_queue_is_still_done() {
+    let bench = Bench::new().await;
+    let writer = bench.store.writer.clone();
+    let queued = tokio::spawn(async move {
+        let submit = Submit::new(call("x", asks("s1")));
+        tokio::join!(writer.call(Dawdle), writer.call(submit)).1
+    });
+    tokio::time::sleep(Duration::from_millis(30)).await;
+    let writer = bench.store.writer.clone();
+    let bench = bench.reopened().await;
+    let stored = queued.await.unwrap().unwrap();
+    assert_eq!(bench.state(stored.id).await, crate::domain::RequestState::Open);
+    let late = writer.call(Dawdle).await;
+    assert!(matches!(late, Err(Refusal::Unavailable(_))), "{late:?}");
+}
