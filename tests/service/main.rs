@@ -10,6 +10,7 @@
 
 mod app;
 mod calls;
+mod database;
 mod field;
 mod time;
 

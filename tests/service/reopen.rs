@@ -53,8 +53,7 @@ async fn cancelling_a_planned_departure_calls_its_tour_back() {
     assert_eq!(departure.state, DepartureState::Cancelled as i32);
     assert_eq!(departure.reason, "the charger broke down");
     assert_eq!((app.state(&one.id).await, app.state(&two.id).await), (SERVED, OPEN));
-    let tour = app.json(&format!("/v1/tours/{}", tour.id)).await;
-    assert_eq!(tour["state"], "cancelled");
+    assert_eq!(app.tour_state(&tour.id).await, "cancelled");
 }
 
 #[tokio::test]
@@ -101,8 +100,7 @@ async fn a_tour_of_which_nothing_is_heard_is_overdue() {
     let departure = app.departure_in(&tour.departure_id, DepartureState::Overdue).await;
     assert_eq!(departure.plan_id, tour.plan_id);
     assert_eq!(app.state(&asked.id).await, OPEN);
-    let over = app.json(&format!("/v1/tours/{}", tour.id)).await;
-    assert_eq!(over["state"], "overdue");
+    assert_eq!(app.tour_state(&tour.id).await, "overdue");
     // The charger is free for another tour, and the end of the first may still be reported or refused.
     let next = app.drive("A").await;
     assert_eq!((sensors(&next), next.state), (vec!["s1"], TourState::Out as i32));

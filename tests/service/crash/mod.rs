@@ -11,7 +11,6 @@
 
 mod aim;
 mod charger;
-mod database;
 mod phase;
 mod rng;
 mod rules;

@@ -7,7 +7,7 @@ use std::fs;
 use std::path::Path;
 
 use super::aim::Aim;
-use super::database::{open_copy, rows};
+use crate::database::{open_copy, rows};
 use super::station::Station;
 use crate::time::now_us;
 

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use sqlx::Connection;
 
-use super::database::{open, rows};
+use crate::database::{open, rows};
 
 /// At every moment.
 const NEVER: [(&str, &str); 12] = [

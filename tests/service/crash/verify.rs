@@ -7,7 +7,7 @@ use tonic::Request;
 use voltour::proto::{ChargingRequest, GetNextRequest, ListRequestsRequest, Tour};
 
 use super::charger::Charger;
-use super::database::{open, rows};
+use crate::database::{open, rows};
 use super::station::Station;
 use crate::app::{PATIENCE, TestApp};
 use crate::field::FIELD;

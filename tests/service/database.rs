@@ -1,9 +1,12 @@
-//! The database read directly, past the service: the crash tests trust nobody's account of it.
+//! The database read directly, past the service: what no call tells, and what the crash tests take on
+//! nobody's account.
 
 use std::path::Path;
 
 use sqlx::sqlite::SqliteConnectOptions;
 use sqlx::{ConnectOptions, Row, SqliteConnection};
+
+use crate::app::TestApp;
 
 /// Opens the database of a running server for reading.
 pub async fn open(path: &Path) -> SqliteConnection {
@@ -25,4 +28,13 @@ pub async fn rows(conn: &mut SqliteConnection, sql: &'static str) -> Vec<Vec<Str
 pub async fn open_copy(path: &Path) -> SqliteConnection {
     let options = SqliteConnectOptions::new().filename(path);
     options.disable_statement_logging().connect().await.expect("the copy opens")
+}
+
+impl TestApp {
+    /// The state of a tour, also of one that is over: no call tells it.
+    pub async fn tour_state(&self, id: &str) -> String {
+        let mut conn = open(&self.database()).await;
+        let state = sqlx::query_scalar("SELECT state FROM tours WHERE id = ?").bind(id);
+        state.fetch_one(&mut conn).await.expect("a tour")
+    }
 }
