@@ -1,10 +1,20 @@
 //! The voltour service: takes charging requests, plans tours, keeps both.
 
+pub mod app;
+pub mod cli;
 pub mod clock;
+pub mod config;
+pub mod demo;
 pub mod domain;
+pub mod grpc;
+pub mod lifecycle;
+pub mod listen;
 pub mod planner;
+pub mod rest;
 pub mod scheduler;
 pub mod store;
+pub mod svg;
+pub mod telemetry;
 
 /// The generated gRPC contract. Only the gRPC edge and the clients see it.
 #[allow(missing_docs, clippy::all, clippy::pedantic)]

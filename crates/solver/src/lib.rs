@@ -2,7 +2,9 @@
 
 pub mod check;
 pub mod coverage;
+pub mod generate;
 pub mod instance;
+pub mod local_search;
 pub mod plan;
 pub mod scenario;
 pub mod solvers;

@@ -298,40 +298,49 @@ mod read {
     }
 
     fn violation(reader: Reader<'_>) -> Read<Violation> {
-        let wrong = reader.wrong("kind must be required, coverage, timespan or capacity");
-        let fields = reader.fields(&["kind", "sensor", "at_m", "needs", "has", "limit"])?;
-        let kind = fields.required("kind", |v| v.text())?;
-        match kind.as_str() {
+        let kind = kind(&reader, &["required", "coverage", "timespan", "capacity"])?;
+        match kind {
             "required" => {
+                let fields = reader.fields(&["kind", "sensor"])?;
                 Ok(Violation::Required { sensor: fields.required("sensor", |v| v.text())? })
             }
-            "coverage" => Ok(Violation::Coverage {
-                at_m: fields.required("at_m", |v| v.row())?,
-                needs: fields.required("needs", whole)?,
-                has: fields.required("has", whole)?,
-            }),
-            "timespan" | "capacity" => {
+            "coverage" => {
+                let fields = reader.fields(&["kind", "at_m", "needs", "has"])?;
+                Ok(Violation::Coverage {
+                    at_m: fields.required("at_m", |v| v.row())?,
+                    needs: fields.required("needs", whole)?,
+                    has: fields.required("has", whole)?,
+                })
+            }
+            _ => {
+                let fields = reader.fields(&["kind", "limit", "needs"])?;
                 let limit = fields.required("limit", |v| v.number())?;
                 let needs = fields.required("needs", |v| v.number())?;
-                Ok(match kind.as_str() {
+                Ok(match kind {
                     "timespan" => Violation::Timespan { limit, needs },
                     _ => Violation::Capacity { limit, needs },
                 })
             }
-            _ => Err(wrong),
         }
     }
 
     fn warning(reader: Reader<'_>) -> Read<Warning> {
-        let wrong = reader.wrong("kind must be below_k");
+        kind(&reader, &["below_k"])?;
         let fields = reader.fields(&["kind", "at_m", "needs", "has"])?;
-        if fields.required("kind", |v| v.text())? != "below_k" {
-            return Err(wrong);
-        }
         Ok(Warning::BelowK {
             at_m: fields.required("at_m", |v| v.row())?,
             needs: fields.required("needs", whole)?,
             has: fields.required("has", whole)?,
+        })
+    }
+
+    /// The member `kind`, one of those allowed; it decides which other members there are.
+    fn kind(reader: &Reader<'_>, allowed: &[&'static str]) -> Read<&'static str> {
+        reader.peek("kind", |value| {
+            let text = value.text()?;
+            let found = allowed.iter().find(|kind| **kind == text);
+            let rule = || format!("must be {}", allowed.join(", "));
+            found.copied().ok_or_else(|| value.wrong(&rule()))
         })
     }
 }

@@ -109,3 +109,113 @@ fn time_to_catch(leg: &Leg, begin_s: f64, departure: Departure) -> f64 {
     // Of the two forms of the same root, the one that does not subtract like from like.
     if half > 0.0 { -rest / (half + root) } else { (root - half) / square }
 }
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+    use serde_json::json;
+
+    use super::*;
+    use crate::scenario::Scenario;
+
+    const SPEED_MPS: f64 = 5.0;
+
+    /// The place of a sensor with these rows, by way of a scenario.
+    fn moving(rows: &[[f64; 3]]) -> Place {
+        let document = json!({
+            "format": "voltour/scenario/1", "objective": "max_count", "requests": [],
+            "charger": { "start_m": [0, 0], "speed_mps": SPEED_MPS, "travel_jpm": 0, "transfer_w": 1 },
+            "sensors": [{ "id": "s", "trajectory": rows, "battery_j": 1 }],
+        });
+        Scenario::from_json(document.to_string().as_bytes()).unwrap().sensors[0].place.clone()
+    }
+
+    fn departure(from: [f64; 2], leave_s: f64, ready_s: f64) -> Departure {
+        Departure { from: from.into(), leave_s, ready_s, speed_mps: SPEED_MPS }
+    }
+
+    /// Linear between the rows, written as plainly as can be.
+    fn place_at(rows: &[[f64; 3]], t: f64) -> Point {
+        let mut place = Point::new(rows[0][1], rows[0][2]);
+        for pair in rows.windows(2) {
+            let share = ((t - pair[0][0]) / (pair[1][0] - pair[0][0])).clamp(0.0, 1.0);
+            if t > pair[0][0] {
+                let (a, b) =
+                    (Point::new(pair[0][1], pair[0][2]), Point::new(pair[1][1], pair[1][2]));
+                place = a + (b - a) * share;
+            }
+        }
+        place
+    }
+
+    #[test]
+    fn chases_and_meets_head_on() {
+        // Five metres a second after a sensor that flees at three from 20 m ahead: ten seconds.
+        let meeting =
+            meet(&moving(&[[0.0, 20.0, 0.0], [100.0, 320.0, 0.0]]), departure([0.0; 2], 0.0, 0.0));
+        assert_eq!((meeting.at_s, meeting.distance_m), (10.0, 50.0));
+        // Towards each other at five and three from 80 m: ten seconds again.
+        let meeting =
+            meet(&moving(&[[0.0, 80.0, 0.0], [20.0, 20.0, 0.0]]), departure([0.0; 2], 0.0, 0.0));
+        assert_eq!((meeting.at_s, meeting.distance_m), (10.0, 50.0));
+    }
+
+    #[test]
+    fn rests_before_the_first_row_and_after_the_last() {
+        let rows = [[40.0, 30.0, 40.0], [50.0, 30.0, 50.0]];
+        let early = meet(&moving(&rows), departure([0.0; 2], 0.0, 0.0));
+        assert_eq!((early.at_s, early.distance_m), (10.0, 50.0));
+        let late = meet(&moving(&rows), departure([30.0, 0.0], 45.0, 0.0));
+        assert_eq!((late.at_s, late.distance_m), (55.0, 50.0));
+        let past =
+            meet(&moving(&[[-20.0, 0.0, 0.0], [-10.0, 5.0, 0.0]]), departure([0.0; 2], 0.0, 0.0));
+        assert_eq!((past.at_s, past.distance_m), (1.0, 5.0));
+    }
+
+    #[test]
+    fn a_closed_place_is_awaited_and_met_where_the_sensor_is_then() {
+        let meeting =
+            meet(&moving(&[[0.0, 10.0, 0.0], [60.0, 40.0, 0.0]]), departure([0.0; 2], 0.0, 30.0));
+        assert_eq!(
+            (meeting.at_s, meeting.place, meeting.distance_m),
+            (30.0, Point::new(25.0, 0.0), 25.0)
+        );
+    }
+
+    proptest! {
+        /// Against a clock that ticks in hundredths: not reached a tick before, reached a tick after.
+        #[test]
+        fn agrees_with_fine_time_steps(
+            corners in prop::collection::vec((1.0..40.0f64, -1.0..1.0f64, -1.0..1.0f64), 0..6),
+            first in (-60.0..60.0f64, -100.0..100.0f64, -100.0..100.0f64),
+            from in (-100.0..100.0f64, -100.0..100.0f64),
+            leave_s in 0.0..80.0f64,
+            ready_s in prop_oneof![Just(0.0), 0.0..150.0f64],
+        ) {
+            let mut rows = vec![[first.0, first.1, first.2]];
+            for (seconds, vx, vy) in corners {
+                let [t, x, y] = rows[rows.len() - 1];
+                // Up to 3.4 times the square root of two: just below the charger's speed.
+                rows.push([t + seconds, x + 3.4 * vx * seconds, y + 3.4 * vy * seconds]);
+            }
+            let from = Point::new(from.0, from.1);
+            let meeting = meet(&moving(&rows), departure([from.x, from.y], leave_s, ready_s));
+            let earliest_s = leave_s.max(ready_s);
+            let reached = |t: f64| (place_at(&rows, t) - from).norm() <= SPEED_MPS * (t - leave_s) + 1e-9;
+            let mut tick = 0;
+            while !reached(earliest_s + f64::from(tick) * 0.01) {
+                tick += 1;
+                prop_assert!(tick < 1_000_000);
+            }
+            let found_s = earliest_s + f64::from(tick) * 0.01;
+            prop_assert!(meeting.at_s <= found_s + 1e-6 && meeting.at_s >= found_s - 0.01 - 1e-6);
+            prop_assert!(meeting.at_s >= earliest_s);
+            let place = place_at(&rows, meeting.at_s);
+            prop_assert!((meeting.place - place).norm() < 1e-6);
+            prop_assert!((meeting.distance_m - (place - from).norm()).abs() < 1e-6);
+            if meeting.at_s > earliest_s {
+                prop_assert!((meeting.distance_m - SPEED_MPS * (meeting.at_s - leave_s)).abs() < 1e-6);
+            }
+        }
+    }
+}

@@ -3,9 +3,26 @@
 //! The faces of the arrangement of all disks and the field's border are found exactly, from the
 //! vertices of the arrangement; each distinct set of covering sensors is a [`Region`] with a witness
 //! point. From those come the [`Demand`]s of a scenario (`formats.md`, constraint 5), of which only the
-//! ones that no other implies remain.
+//! ones that no other implies remain. [`shortfalls`] says which regions a choice of served requests
+//! leaves short, [`below_k`] which the deployment itself leaves short.
 
-use crate::scenario::{Point, Scenario};
+mod arrangement;
+mod border;
+mod crossings;
+mod demands;
+mod disks;
+mod faces;
+mod frame;
+mod sectors;
+mod sets;
+mod shortfall;
+mod surroundings;
+
+use crate::scenario::Point;
+
+pub use arrangement::regions;
+pub use demands::demands;
+pub use shortfall::{Shortfall, below_k, shortfalls};
 
 /// A distinct set of sensors that covers some sub-region of positive area inside the field.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,14 +42,4 @@ pub struct Demand {
     pub needs: u32,
     /// A point inside the sub-region that asks for it.
     pub witness: Point,
-}
-
-/// Every distinct region of the scenario's coverage constraint, in a fixed order; empty without one.
-pub fn regions(_scenario: &Scenario) -> Vec<Region> {
-    Vec::new()
-}
-
-/// The demands of the scenario that no other demand implies, in a fixed order.
-pub fn demands(_scenario: &Scenario, _regions: &[Region]) -> Vec<Demand> {
-    Vec::new()
 }

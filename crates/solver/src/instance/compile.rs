@@ -42,6 +42,8 @@ pub struct Instance<'a> {
     pub moving: bool,
     /// Distances are Euclidean between places at rest: leaving a stop out never breaks a limit.
     pub metric: bool,
+    /// Every distance is the same both ways.
+    pub symmetric: bool,
     /// Segments concatenate (`design.md`): nothing moves, no charge saturates, and energy is affine in
     /// the start.
     pub segments: bool,
@@ -71,8 +73,10 @@ impl<'a> Instance<'a> {
         let saturates = |c: &Candidate| c.due_s.min(timespan_s) > solver_limit(c.empty_s());
         let affine_energy = charger.capacity_j.is_none() || !drains || !waits;
         let regions = coverage::regions(scenario);
+        let travel = Travel::new(scenario, &candidates);
         Self {
-            travel: Travel::new(scenario, &candidates),
+            symmetric: scenario.travel.is_none() || travel.is_symmetric(),
+            travel,
             demands: DemandSet::reduced(scenario, &regions, &candidates),
             all_demands: DemandSet::complete(scenario, &regions, &candidates),
             regions,
@@ -83,7 +87,10 @@ impl<'a> Instance<'a> {
             metric: !moving && scenario.travel.is_none(),
             segments: !moving && affine_energy && !candidates.iter().any(saturates),
             waits,
-            untimed: !moving && !waits && !drains && candidates.iter().all(|c| c.due_s.is_infinite()),
+            untimed: !moving
+                && !waits
+                && !drains
+                && candidates.iter().all(|c| c.due_s.is_infinite()),
             candidates,
             scenario,
         }
@@ -127,6 +134,7 @@ impl<'a> Instance<'a> {
     }
 
     /// Distance between two places at rest, in metres.
+    #[inline]
     pub fn distance_m(&self, from: usize, to: usize) -> f64 {
         self.travel.distance_m(from, to)
     }

@@ -21,9 +21,8 @@ pub fn earliest(
         return not_before_s;
     }
     let rows = trajectory.waypoints();
-    let met = rows.partition_point(|row| {
-        row.time_s <= not_before_s || !in_reach(row.position_m, row.time_s)
-    });
+    let met = rows
+        .partition_point(|row| row.time_s <= not_before_s || !in_reach(row.position_m, row.time_s));
     let mut begin = (not_before_s, start);
     if met > 0 && rows[met - 1].time_s > not_before_s {
         begin = (rows[met - 1].time_s, rows[met - 1].position_m);

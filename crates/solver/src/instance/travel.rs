@@ -34,15 +34,24 @@ impl Travel {
         if candidates.len() > DENSE {
             return Self::Points(points);
         }
-        let row = |from: &Point| points.iter().map(move |to| (to - from).norm()).collect::<Vec<_>>();
+        let row =
+            |from: &Point| points.iter().map(move |to| (to - from).norm()).collect::<Vec<_>>();
         Self::Dense { size, distance_m: points.iter().flat_map(|from| row(from)).collect() }
     }
 
     /// Distance from one place to another, in metres.
+    #[inline]
     pub fn distance_m(&self, from: usize, to: usize) -> f64 {
         match self {
             Self::Dense { size, distance_m } => distance_m[from * size + to],
             Self::Points(points) => (points[to] - points[from]).norm(),
         }
+    }
+
+    /// Whether every distance between candidates is the same both ways.
+    pub(super) fn is_symmetric(&self) -> bool {
+        let Self::Dense { size, .. } = self else { return true };
+        let pairs = (0..size - 2).flat_map(|a| (0..a).map(move |b| (a, b)));
+        pairs.into_iter().all(|(a, b)| self.distance_m(a, b) == self.distance_m(b, a))
     }
 }

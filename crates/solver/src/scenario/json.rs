@@ -25,9 +25,16 @@ pub(crate) fn parse(text: &[u8]) -> Result<Value, ScenarioError> {
         (Err(error), None) => Err(ScenarioError::Syntax {
             line: error.line(),
             column: error.column(),
-            reason: error.to_string(),
+            reason: reason(&error),
         }),
     }
+}
+
+/// What the parser says, without the line and column that it puts at the end.
+fn reason(error: &serde_json::Error) -> String {
+    let text = error.to_string();
+    let place = format!(" at line {} column {}", error.line(), error.column());
+    text.strip_suffix(&place).unwrap_or(&text).to_owned()
 }
 
 /// The path of a member: `parent.key`, or `parent["odd key"]` where the key is not a plain word.

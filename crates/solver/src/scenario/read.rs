@@ -68,6 +68,12 @@ impl<'a> Reader<'a> {
         numbers.try_into().map_err(|_| self.wrong(&format!("must be a list of {N} numbers")))
     }
 
+    /// A required member of an object, before it is known which others are allowed.
+    pub(crate) fn peek<T>(&self, name: &str, read: impl Fn(Reader<'a>) -> Read<T>) -> Read<T> {
+        let object = self.value.as_object().ok_or_else(|| self.wrong("must be an object"))?;
+        Fields { object, path: self.path.clone() }.required(name, read)
+    }
+
     /// The members of an object that has no others than `known`.
     pub(crate) fn fields(self, known: &[&str]) -> Read<Fields<'a>> {
         let object = self.value.as_object().ok_or_else(|| self.wrong("must be an object"))?;

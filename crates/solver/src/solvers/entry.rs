@@ -76,7 +76,9 @@ pub fn solve(scenario: &Scenario, options: &Options<'_>) -> Result<Outcome, Unav
         SolverName::Greedy => {
             vec![single(greedy::greedy(&instance, &mut budget), "insertion", &budget)]
         }
-        SolverName::Nearest => vec![single(greedy::nearest(&instance, &mut budget), "walk", &budget)],
+        SolverName::Nearest => {
+            vec![single(greedy::nearest(&instance, &mut budget), "walk", &budget)]
+        }
         SolverName::Random => {
             vec![single(random::random(&instance, &mut rng, &mut budget), "walks", &budget)]
         }

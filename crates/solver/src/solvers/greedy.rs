@@ -42,9 +42,9 @@ pub(super) fn append(
     let mut partial = Partial::new(instance, &[]);
     let weight = vec![1.0; instance.demands.demands.len()];
     let mut open = Vec::new();
+    let mut here = instance.departure();
     loop {
         open.clear();
-        let here = *partial.tour.before(partial.tour.len());
         for candidate in 0..instance.len() as u32 {
             let helps = instance.scenario.objective != Objective::MinDistance
                 || partial.relief(instance, candidate, &weight) > 0.0;
@@ -57,6 +57,7 @@ pub(super) fn append(
             }
         }
         let Some(next) = choose(&open) else { break };
+        here = instance.step(&here, next);
         partial.insert(instance, partial.tour.len(), next);
         if !budget.spend() {
             break;

@@ -3,8 +3,8 @@
 //! The cheapest place of each candidate is remembered and only looked for anew where the last
 //! insertion broke it, so that a step costs a few evaluations a candidate.
 
-use super::partial::{Partial, gain};
 use super::Budget;
+use super::partial::{Partial, gain};
 use crate::instance::Instance;
 use crate::tour::Insertion;
 
@@ -92,7 +92,9 @@ impl Place {
         let kept = match old.position.cmp(&fresh) {
             std::cmp::Ordering::Less => tour.insertion(instance, old.position, self.candidate),
             std::cmp::Ordering::Equal => None,
-            std::cmp::Ordering::Greater => tour.insertion(instance, old.position + 1, self.candidate),
+            std::cmp::Ordering::Greater => {
+                tour.insertion(instance, old.position + 1, self.candidate)
+            }
         };
         let Some(kept) = kept else {
             self.insertion = tour.cheapest(instance, self.candidate);

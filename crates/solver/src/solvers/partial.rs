@@ -2,10 +2,10 @@
 
 use crate::instance::Instance;
 use crate::scenario::Objective;
-use crate::tour::{Run, Tour};
+use crate::tour::Tour;
 
 /// A tour and how far each demand is met.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub struct Partial {
     /// The tour.
     pub tour: Tour,
@@ -105,10 +105,4 @@ pub fn gain(instance: &Instance<'_>, candidate: u32) -> f64 {
         Objective::MaxReward => instance.candidates[candidate as usize].reward,
         Objective::MaxCount => 1.0,
     }
-}
-
-/// What a whole tour takes of the scarce resource.
-pub fn effort(instance: &Instance<'_>, finished: &Run) -> f64 {
-    let per = &instance.effort;
-    per.per_m * finished.distance_m + per.per_s * finished.arrive_s + per.per_j * finished.charge_j
 }

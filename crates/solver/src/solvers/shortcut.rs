@@ -21,7 +21,8 @@ pub fn legal_start(instance: &Instance<'_>) -> Vec<u32> {
 /// Dijkstra's algorithm over the candidates that are reached in time, by a mean of time and energy,
 /// each as a share of its limit. By time alone it is exact: being early is never worse.
 fn shortest(instance: &Instance<'_>, energy_share: f64) -> Vec<u32> {
-    let share = |value: f64, limit: f64| if limit.is_finite() { value / limit.max(1e-9) } else { 0.0 };
+    let share =
+        |value: f64, limit: f64| if limit.is_finite() { value / limit.max(1e-9) } else { 0.0 };
     let cost = |run: &Run| {
         let time = share(run.depart_s, instance.timespan_s);
         let energy = share(instance.energy_j(run), instance.capacity_j);

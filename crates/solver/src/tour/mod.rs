@@ -4,12 +4,14 @@
 //! [`Tour`] holds both for every position. Where segments do not concatenate (`design.md`), the tour
 //! simulates forward instead; whoever asks does not see the difference.
 
+mod insertion;
 mod run;
 mod segment;
 mod sequence;
 mod value;
 
+pub use insertion::Insertion;
 pub use run::{Run, simulate};
 pub use segment::Segment;
-pub use sequence::{Insertion, Tour};
+pub use sequence::Tour;
 pub use value::Value;

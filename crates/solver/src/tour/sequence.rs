@@ -5,18 +5,9 @@ use crate::instance::Instance;
 
 const OUTSIDE: u32 = u32::MAX;
 
-/// A place for a candidate in a tour, and what it costs.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Insertion {
-    /// The stop goes before the one that is now here.
-    pub position: usize,
-    /// What the tour grows by in the scarce resource ([`crate::instance::Effort`]).
-    pub effort: f64,
-}
-
 /// A sequence of candidates with its schedule. A tour may be illegal only where leaving a stop out may
 /// break a limit (no triangle inequality); [`Tour::is_legal`] tells.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub struct Tour {
     order: Vec<u32>,
     /// By candidate; `OUTSIDE` if it is not served.
@@ -28,15 +19,21 @@ pub struct Tour {
     /// `latest[p]`: getting to position `p` by then keeps every later deadline and the time span;
     /// where nothing moves.
     latest: Vec<f64>,
-    finished: Option<Run>,
+    finished: Run,
     legal: bool,
 }
 
 impl Clone for Tour {
     fn clone(&self) -> Self {
-        let mut tour = Self::default();
-        tour.clone_from(self);
-        tour
+        Self {
+            order: self.order.clone(),
+            position: self.position.clone(),
+            runs: self.runs.clone(),
+            suffix: self.suffix.clone(),
+            latest: self.latest.clone(),
+            finished: self.finished,
+            legal: self.legal,
+        }
     }
 
     fn clone_from(&mut self, source: &Self) {
@@ -53,8 +50,15 @@ impl Clone for Tour {
 impl Tour {
     /// The tour with these stops.
     pub fn new(instance: &Instance<'_>, order: &[u32]) -> Self {
-        let mut tour = Self { position: vec![OUTSIDE; instance.len()], ..Self::default() };
-        tour.order.extend_from_slice(order);
+        let mut tour = Self {
+            order: order.to_vec(),
+            position: vec![OUTSIDE; instance.len()],
+            runs: Vec::new(),
+            suffix: Vec::new(),
+            latest: Vec::new(),
+            finished: instance.departure(),
+            legal: false,
+        };
         tour.refresh(instance, 0, order.len());
         tour
     }
@@ -85,14 +89,9 @@ impl Tour {
         self.position[candidate as usize] != OUTSIDE
     }
 
-    /// The charger before a position; `before(len)` is after the last stop.
-    pub fn before(&self, position: usize) -> &Run {
-        &self.runs[position]
-    }
-
     /// The charger at the end.
-    pub fn finished(&self) -> Run {
-        self.finished.unwrap_or(self.runs[self.order.len()])
+    pub fn finished(&self) -> &Run {
+        &self.finished
     }
 
     /// Whether constraints 1 to 3 hold.
@@ -147,28 +146,57 @@ impl Tour {
     /// Recomputes the schedule from position `from` on, and the records of what comes after for every
     /// position before `to`.
     fn refresh(&mut self, instance: &Instance<'_>, from: usize, to: usize) {
-        let stops = self.order.len();
+        for (p, &candidate) in self.order.iter().enumerate().skip(from) {
+            self.position[candidate as usize] = p as u32;
+        }
+        if instance.untimed {
+            self.total(instance);
+            return;
+        }
         self.runs.truncate(from + 1);
         if self.runs.is_empty() {
             self.runs.push(instance.departure());
         }
         let mut run = self.runs[from];
-        for (p, &candidate) in self.order.iter().enumerate().skip(from) {
-            self.position[candidate as usize] = p as u32;
+        for &candidate in &self.order[from..] {
             run = instance.step(&run, candidate);
             self.runs.push(run);
         }
         let end = instance.finish(&run);
-        self.finished = Some(end);
+        self.finished = end;
         let in_time = self.runs[1..].iter().all(|run| instance.in_time(run));
         self.legal = in_time && instance.keeps_limits(&end);
-        self.refresh_after(instance, stops, to);
+        self.refresh_after(instance, to);
     }
 
-    fn refresh_after(&mut self, instance: &Instance<'_>, stops: usize, to: usize) {
+    /// Where legality hangs on totals alone, these are all that is kept.
+    fn total(&mut self, instance: &Instance<'_>) {
+        let charger = &instance.scenario.charger;
+        let (mut distance_m, mut charge_j, mut here) = (0.0, 0.0, instance.start());
+        for &candidate in &self.order {
+            distance_m += instance.distance_m(here, candidate as usize);
+            charge_j += instance.candidates[candidate as usize].charge_j(0.0);
+            here = candidate as usize;
+        }
+        distance_m += instance.distance_m(here, instance.end());
+        let arrive_s = distance_m / charger.speed_mps + charge_j / charger.transfer_w;
+        let end = Run {
+            node: instance.end() as u32,
+            place: charger.end_m,
+            arrive_s,
+            depart_s: arrive_s,
+            distance_m,
+            charge_j,
+        };
+        self.finished = end;
+        self.legal = instance.keeps_limits(&end);
+    }
+
+    fn refresh_after(&mut self, instance: &Instance<'_>, to: usize) {
         if instance.moving {
             return;
         }
+        let stops = self.order.len();
         // Records are kept from the back, so that an insertion leaves those behind it as they are.
         let kept = (stops - to).min(self.latest.len().saturating_sub(1));
         self.latest.truncate(kept + 1);
@@ -182,7 +210,8 @@ impl Tour {
         for p in (0..stops - kept).rev() {
             let here = self.order[p];
             if instance.segments {
-                let rest = Segment::stop(instance, here).then(instance, &self.suffix[stops - p - 1]);
+                let rest =
+                    Segment::stop(instance, here).then(instance, &self.suffix[stops - p - 1]);
                 self.suffix.push(rest);
                 self.latest.push(rest.latest_s);
             } else {
@@ -192,70 +221,31 @@ impl Tour {
         }
     }
 
+    /// The place before a position, the start before the first.
+    pub fn place_before(&self, instance: &Instance<'_>, position: usize) -> usize {
+        position.checked_sub(1).map_or(instance.start(), |p| self.order[p] as usize)
+    }
+
+    /// The charger before a position; `before(len)` is after the last stop. Not kept where the
+    /// instance is untimed.
+    pub(super) fn before(&self, position: usize) -> &Run {
+        &self.runs[position]
+    }
+
+    /// When charging begins at a position, the arrival at the end behind the last.
+    pub(super) fn arrive_s(&self, position: usize) -> f64 {
+        self.runs.get(position + 1).unwrap_or(&self.finished).arrive_s
+    }
+
+    /// The rest of the tour from `position` on; only where segments concatenate.
+    pub(super) fn rest(&self, position: usize) -> &Segment {
+        &self.suffix[self.order.len() - position]
+    }
+
     /// Getting to `position` at this time keeps every later deadline and the time span; only where
     /// nothing moves.
-    fn latest(&self, position: usize) -> f64 {
+    pub(super) fn latest(&self, position: usize) -> f64 {
         self.latest[self.order.len() - position]
-    }
-
-    /// The end of the tour that comes from `run` and goes on with the stops from `position`; `None` if
-    /// that breaks a limit.
-    pub fn resume(&self, instance: &Instance<'_>, run: &Run, position: usize) -> Option<Run> {
-        if instance.segments {
-            let end = self.suffix[self.order.len() - position].after(instance, run)?;
-            return (instance.energy_j(&end) <= instance.capacity_j).then_some(end);
-        }
-        let mut run = *run;
-        for &candidate in &self.order[position..] {
-            run = instance.step(&run, candidate);
-            if !instance.in_time(&run) {
-                return None;
-            }
-        }
-        let end = instance.finish(&run);
-        instance.keeps_limits(&end).then_some(end)
-    }
-
-    /// What it takes to put a candidate before `position`; `None` if that breaks a limit.
-    pub fn insertion(
-        &self,
-        instance: &Instance<'_>,
-        position: usize,
-        candidate: u32,
-    ) -> Option<Insertion> {
-        let run = instance.step(&self.runs[position], candidate);
-        if !instance.in_time(&run) {
-            return None;
-        }
-        let effort = &instance.effort;
-        let charge_j = run.charge_j - self.runs[position].charge_j;
-        let (metres, seconds) = if instance.moving {
-            let (end, now) = (self.resume(instance, &run, position)?, self.finished());
-            (end.distance_m - now.distance_m, end.arrive_s - now.arrive_s)
-        } else {
-            let next = self.place(instance, position);
-            let from = self.runs[position].node as usize;
-            let leg_m = instance.distance_m(candidate as usize, next);
-            let reach_s = run.depart_s + leg_m / instance.scenario.charger.speed_mps;
-            if reach_s > self.latest(position) {
-                return None;
-            }
-            if instance.capacity_j.is_finite() {
-                self.resume(instance, &run, position)?;
-            }
-            let metres = run.distance_m - self.runs[position].distance_m + leg_m
-                - instance.distance_m(from, next);
-            let then = self.runs.get(position + 1).unwrap_or(self.finished.as_ref()?).arrive_s;
-            (metres, reach_s - then)
-        };
-        let effort = effort.per_m * metres + effort.per_s * seconds.max(0.0) + effort.per_j * charge_j;
-        Some(Insertion { position, effort })
-    }
-
-    /// The cheapest legal place of a candidate among all.
-    pub fn cheapest(&self, instance: &Instance<'_>, candidate: u32) -> Option<Insertion> {
-        let all = (0..=self.order.len()).filter_map(|p| self.insertion(instance, p, candidate));
-        all.min_by(|a, b| a.effort.total_cmp(&b.effort))
     }
 }
 

@@ -19,8 +19,8 @@ pub(super) fn sweep(faces: &mut Faces<'_>, a: Point, b: Point) {
     let stretch = |who| covered(a, along, length, faces.disks.get(who), who);
     let stretches: Vec<_> = near.filter_map(stretch).collect();
     pieces(length, &stretches, |from, to, covering| {
-        let middle = a + along * (0.5 * (from + to));
-        faces.note(covering.iter().copied(), to - from, |step| middle + inward * step);
+        let on = |share: f64| a + along * (from + share * (to - from));
+        faces.note(covering.iter().copied(), to - from, |share, step| on(share) + inward * step);
     });
 }
 

@@ -39,12 +39,15 @@ pub(super) fn sweep(faces: &mut Faces<'_>, i: u32) {
     let stretches: Vec<_> =
         arcs.iter().flat_map(|arc| unroll(*arc, seam)).map(|s| scale(s, disk.radius)).collect();
     pieces(TAU * disk.radius, &stretches, |from, to, covering| {
-        let angle = seam + 0.5 * (from + to) / disk.radius;
-        let ray = Vector2::new(angle.cos(), angle.sin());
+        let on = |share: f64| {
+            let angle = seam + (from + share * (to - from)) / disk.radius;
+            Vector2::new(angle.cos(), angle.sin())
+        };
         let inside = covering.iter().chain(&twins).copied();
-        faces.note(inside, to - from, |step| disk.centre + ray * (disk.radius - step));
+        faces.note(inside, to - from, |share, step| disk.centre + on(share) * (disk.radius - step));
         let outside = covering.iter().copied();
-        faces.note(outside, to - from, |step| disk.centre + ray * (disk.radius + step));
+        faces
+            .note(outside, to - from, |share, step| disk.centre + on(share) * (disk.radius + step));
     });
 }
 

@@ -36,13 +36,13 @@ pub(super) fn sets(disks: &Disks, field: &Field<'_>, wanted: &dyn Fn(&[u32]) -> 
 }
 
 impl Faces<'_> {
-    /// Notes the set that covers the ground beside a piece of border; `probe` leads from the
-    /// middle of the piece that many metres into the face.
+    /// Notes the set that covers the ground beside a piece of border; `probe` leads from a
+    /// share of the piece that many metres into the face.
     pub(super) fn note(
         &mut self,
         covering: impl Iterator<Item = u32>,
         length: f64,
-        probe: impl Fn(f64) -> Point,
+        probe: impl Fn(f64, f64) -> Point,
     ) {
         self.buffer.clear();
         self.buffer.extend(covering);
@@ -58,16 +58,19 @@ impl Faces<'_> {
     }
 
     /// A point that shows the set in the buffer, sought ever nearer to the border.
-    fn witness(&self, length: f64, probe: impl Fn(f64) -> Point) -> Option<Point> {
+    fn witness(&self, length: f64, probe: impl Fn(f64, f64) -> Point) -> Option<Point> {
         // Lengths are rounded too: a piece just long enough proves nothing.
         const SURELY_LONG_M: f64 = 2e-9;
         const NEAREST: f64 = 1e-13;
+        // More places than one, lest something touches the piece just there.
+        const SHARES: [f64; 3] = [0.5, 0.31, 0.83];
         if length < SURELY_LONG_M {
             return None;
         }
         let steps = std::iter::successors(Some(0.5 * length), |step| Some(0.25 * step));
-        let points = steps.take_while(|step| *step > NEAREST * length).map(probe);
-        points.take(40).find(|point| {
+        let steps = steps.take_while(|step| *step > NEAREST * length);
+        let mut points = steps.flat_map(|step| SHARES.map(|share| probe(share, step)));
+        points.find(|point| {
             let cover = self.disks.at(*point, rounding(*point));
             cover.perhaps.is_empty()
                 && cover.surely == self.buffer

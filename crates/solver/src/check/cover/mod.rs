@@ -9,5 +9,7 @@ mod faces;
 mod field;
 mod shortfalls;
 mod sweep;
+#[cfg(test)]
+mod tests;
 
 pub(super) use shortfalls::{Count, List, Mismatch, Shortfalls};

@@ -1,8 +1,9 @@
 //! One number for a tour that may lack something: what the annealing compares.
 
 use crate::instance::Instance;
+use crate::local_search::effort;
 use crate::scenario::Objective;
-use crate::solvers::partial::{Partial, effort, gain};
+use crate::solvers::partial::{Partial, gain};
 
 /// A missing cover begins at so many scales.
 const FIRST_WEIGHT: f64 = 3.0;
@@ -26,7 +27,7 @@ impl Cost {
     /// Scales taken from the instance and a first tour.
     pub fn new(instance: &Instance<'_>, first: &Partial) -> Self {
         let stops = first.tour.len() as f64 + 1.0;
-        let spent = effort(instance, &first.tour.finished());
+        let spent = effort(instance, first.tour.finished());
         let (per_effort, scale) = if instance.scenario.objective == Objective::MinDistance {
             (1.0, (spent / stops).max(mean_reach(instance) * 0.1))
         } else {
@@ -47,7 +48,7 @@ impl Cost {
             Objective::MaxReward => partial.tour.reward(instance),
             Objective::MaxCount => partial.tour.len() as f64,
         };
-        self.per_effort * effort(instance, &partial.tour.finished()) - gains
+        self.per_effort * effort(instance, partial.tour.finished()) - gains
             + partial.penalty(instance, &self.weight)
     }
 

@@ -5,7 +5,6 @@
 //! search ends by itself when nothing has improved for long.
 
 mod cost;
-mod neighbours;
 mod recreate;
 mod ruin;
 mod search;

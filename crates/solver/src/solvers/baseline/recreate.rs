@@ -8,8 +8,8 @@ use rand::seq::SliceRandom;
 use rand_pcg::Pcg64Mcg;
 
 use super::cost::Cost;
-use super::neighbours::Neighbours;
 use crate::instance::Instance;
+use crate::local_search::Neighbours;
 use crate::solvers::grow::{Rule, grow};
 use crate::solvers::partial::{Partial, gain};
 use crate::tour::Insertion;
@@ -19,7 +19,7 @@ const BLINK: f64 = 0.01;
 /// Tours up to this length are searched whole for a place; longer ones next to near stops.
 const WHOLE: usize = 40;
 /// Near stops tried in longer tours.
-const NEAR: usize = 16;
+const NEAR: usize = 10;
 
 /// Fills a ruined tour from `pool`.
 pub fn recreate(
@@ -40,7 +40,7 @@ pub fn recreate(
         grow(instance, partial, pool, &rule, || rng.random_range(0.7..1.3), None);
         return;
     }
-    sort(instance, partial, pool, cost, by, rng);
+    sort(instance, partial, pool, cost, by, near, rng);
     for &candidate in pool.iter() {
         if cost.worth(instance, partial, candidate) <= 0.0 {
             continue;
@@ -58,6 +58,7 @@ fn sort(
     pool: &mut [u32],
     cost: &Cost,
     by: u32,
+    near: &mut Neighbours,
     rng: &mut Pcg64Mcg,
 ) {
     let candidate = |c: u32| &instance.candidates[c as usize];
@@ -70,7 +71,8 @@ fn sort(
         _ => {
             let noise: f64 = rng.random_range(0.0..0.5);
             sort_down(pool, |c| {
-                let effort = partial.tour.cheapest(instance, c).map_or(f64::INFINITY, |i| i.effort);
+                let place = place(instance, partial, c, near, rng);
+                let effort = place.map_or(f64::INFINITY, |place| place.effort);
                 let factor = 1.0 + noise * rng.random_range(-1.0..1.0);
                 factor * cost.worth(instance, partial, c) / effort.max(1e-9)
             });

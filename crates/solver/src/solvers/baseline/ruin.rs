@@ -8,8 +8,8 @@
 use rand::RngExt;
 use rand_pcg::Pcg64Mcg;
 
-use super::neighbours::Neighbours;
 use crate::instance::Instance;
+use crate::local_search::Neighbours;
 use crate::tour::Tour;
 
 /// Most stops that leave at once.

@@ -4,10 +4,10 @@ use rand::RngExt;
 use rand_pcg::Pcg64Mcg;
 
 use super::cost::Cost;
-use super::neighbours::Neighbours;
 use super::recreate::recreate;
 use super::ruin::ruin;
 use crate::instance::Instance;
+use crate::local_search::{Neighbours, descend};
 use crate::scenario::Objective;
 use crate::solvers::entry::Found;
 use crate::solvers::partial::{Partial, gain};
@@ -21,6 +21,8 @@ const COLD: f64 = 0.003;
 const FIRST_RUN: u64 = 1000;
 /// Pools beyond this size are cut down to the neighbourhood of what left.
 const WIDE_POOL: usize = 100;
+/// Tours longer than this are improved by local search in every iteration.
+const LONG: usize = 40;
 
 /// The best tour found until the budget ends or the search stagnates. `start` is a legal tour to
 /// begin with; it may be empty.
@@ -142,6 +144,12 @@ impl<'a, 'b> Search<'a, 'b> {
         if self.instance.scenario.objective == Objective::MinDistance {
             self.prune(trial);
         }
+        if trial.tour.len() > LONG {
+            let mut dirty = removed;
+            dirty.extend(pool);
+            dirty.retain(|&c| trial.tour.serves(c));
+            descend(self.instance, &mut trial.tour, &mut self.near, &mut dirty, 100);
+        }
     }
 
     fn pool(&mut self, removed: &[u32]) -> Vec<u32> {
@@ -150,7 +158,7 @@ impl<'a, 'b> Search<'a, 'b> {
         }
         let mut pool = removed.to_vec();
         for &candidate in removed {
-            pool.extend(self.near.of(self.instance, candidate).iter().take(12));
+            pool.extend(self.near.of(self.instance, candidate).iter().take(6));
         }
         pool.sort_unstable();
         pool.dedup();

@@ -1,0 +1,148 @@
+//! What it takes to put a candidate into a tour, or to go on with the rest of one.
+//!
+//! In constant time where segments concatenate, and for deadlines and time span wherever nothing
+//! moves; elsewhere by forward simulation.
+
+use super::{Run, Tour};
+use crate::instance::Instance;
+
+/// A place for a candidate in a tour, and what it costs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Insertion {
+    /// The stop goes before the one that is now here.
+    pub position: usize,
+    /// What the tour grows by in the scarce resource ([`crate::instance::Effort`]).
+    pub effort: f64,
+}
+
+impl Tour {
+    /// The end of the tour that comes from `run` and goes on with the stops from `position`; `None` if
+    /// that breaks a limit.
+    pub fn resume(&self, instance: &Instance<'_>, run: &Run, position: usize) -> Option<Run> {
+        if instance.segments && !instance.untimed {
+            let end = self.rest(position).after(instance, run)?;
+            return (instance.energy_j(&end) <= instance.capacity_j).then_some(end);
+        }
+        let mut run = *run;
+        for &candidate in &self.order()[position..] {
+            run = instance.step(&run, candidate);
+            if !instance.in_time(&run) {
+                return None;
+            }
+        }
+        let end = instance.finish(&run);
+        instance.keeps_limits(&end).then_some(end)
+    }
+
+    /// The end of the tour in which `stops` stand in place of as many from position `from` on; `None` if
+    /// that breaks a limit.
+    pub fn rearranged(&self, instance: &Instance<'_>, from: usize, stops: &[u32]) -> Option<Run> {
+        let until = from + stops.len();
+        if instance.untimed {
+            let edges = |stops: &[u32]| {
+                let mut here = self.place_before(instance, from);
+                let mut metres = 0.0;
+                for &next in stops {
+                    metres += instance.distance_m(here, next as usize);
+                    here = next as usize;
+                }
+                metres + instance.distance_m(here, self.place(instance, until))
+            };
+            let metres = edges(stops) - edges(&self.order()[from..until]);
+            let mut end = *self.finished();
+            end.distance_m += metres;
+            end.arrive_s += metres / instance.scenario.charger.speed_mps;
+            return instance.keeps_limits(&end).then_some(end);
+        }
+        let mut run = *self.before(from);
+        for &next in stops {
+            run = instance.step(&run, next);
+            if !instance.in_time(&run) {
+                return None;
+            }
+        }
+        self.resume(instance, &run, until)
+    }
+
+    /// What it takes to put a candidate before `position`; `None` if that breaks a limit.
+    pub fn insertion(
+        &self,
+        instance: &Instance<'_>,
+        position: usize,
+        candidate: u32,
+    ) -> Option<Insertion> {
+        let (metres, seconds, joules) = if instance.untimed {
+            self.longer(instance, position, candidate)?
+        } else if instance.moving {
+            let run = instance.step(self.before(position), candidate);
+            if !instance.in_time(&run) {
+                return None;
+            }
+            let (end, now) = (self.resume(instance, &run, position)?, self.finished());
+            let joules = end.charge_j - now.charge_j;
+            (end.distance_m - now.distance_m, end.arrive_s - now.arrive_s, joules)
+        } else {
+            self.delayed(instance, position, candidate)?
+        };
+        let per = &instance.effort;
+        let effort = per.per_m * metres + per.per_s * seconds.max(0.0) + per.per_j * joules;
+        Some(Insertion { position, effort })
+    }
+
+    /// Metres by which a candidate lengthens the way.
+    fn detour_m(&self, instance: &Instance<'_>, position: usize, candidate: u32) -> f64 {
+        let (from, to) = (self.place_before(instance, position), self.place(instance, position));
+        let via = candidate as usize;
+        instance.distance_m(from, via) + instance.distance_m(via, to)
+            - instance.distance_m(from, to)
+    }
+
+    /// Metres, seconds and joules more, where totals decide.
+    fn longer(
+        &self,
+        instance: &Instance<'_>,
+        position: usize,
+        candidate: u32,
+    ) -> Option<(f64, f64, f64)> {
+        let charger = &instance.scenario.charger;
+        let metres = self.detour_m(instance, position, candidate);
+        let joules = instance.candidates[candidate as usize].charge_j(0.0);
+        let seconds = metres / charger.speed_mps + joules / charger.transfer_w;
+        let now = self.finished();
+        let energy_j = instance.energy_j(now) + charger.travel_jpm * metres + joules;
+        let legal =
+            now.arrive_s + seconds <= instance.timespan_s && energy_j <= instance.capacity_j;
+        legal.then_some((metres, seconds, joules))
+    }
+
+    /// The same where nothing moves: the seconds by which the next stop is delayed.
+    fn delayed(
+        &self,
+        instance: &Instance<'_>,
+        position: usize,
+        candidate: u32,
+    ) -> Option<(f64, f64, f64)> {
+        let before = self.before(position);
+        let run = instance.step(before, candidate);
+        if !instance.in_time(&run) {
+            return None;
+        }
+        let next = self.place(instance, position);
+        let leg_m = instance.distance_m(candidate as usize, next);
+        let reach_s = run.depart_s + leg_m / instance.scenario.charger.speed_mps;
+        if reach_s > self.latest(position) {
+            return None;
+        }
+        if instance.capacity_j.is_finite() {
+            self.resume(instance, &run, position)?;
+        }
+        let metres = self.detour_m(instance, position, candidate);
+        Some((metres, reach_s - self.arrive_s(position), run.charge_j - before.charge_j))
+    }
+
+    /// The cheapest legal place of a candidate among all.
+    pub fn cheapest(&self, instance: &Instance<'_>, candidate: u32) -> Option<Insertion> {
+        let all = (0..=self.len()).filter_map(|p| self.insertion(instance, p, candidate));
+        all.min_by(|a, b| a.effort.total_cmp(&b.effort))
+    }
+}

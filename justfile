@@ -1,0 +1,45 @@
+# What CI runs. `just check` is the whole of it; the other recipes are its parts.
+
+python := justfile_directory() / "target/python"
+
+# Everything that must hold before a change lands.
+check: fmt lint layers test docs client
+
+# Formatting.
+fmt:
+    cargo fmt --all --check
+
+# Lints, warnings denied.
+lint:
+    cargo clippy --workspace --all-targets --locked -- -D warnings
+
+# The arrows between the crates: the service never depends on the trainer, the solver on nothing that waits.
+layers:
+    ! cargo tree --package voltour --edges normal --prefix none | grep -E '^(voltour-trainer|burn) '
+    ! cargo tree --package voltour-solver --edges normal --prefix none | grep -E '^(tokio|sqlx|tonic|axum) '
+
+# Unit, property, integration and crash tests.
+test:
+    cargo test --workspace --locked
+
+# The documentation builds, warnings denied.
+docs:
+    RUSTDOCFLAGS="-D warnings" cargo doc --workspace --no-deps --locked
+
+# A Python client generated from proto/ alone does the whole round against a real server.
+client: python
+    cargo build --locked
+    {{python}}/bin/python tests/client/round.py target/debug/voltour
+
+# The Python that the client test runs in.
+python:
+    test -x {{python}}/bin/python || python3 -m venv {{python}}
+    {{python}}/bin/pip install --quiet --disable-pip-version-check --requirement tests/client/requirements.txt
+
+# The benchmarks, each printing a ratio against its reference.
+bench:
+    cargo bench --workspace
+
+# 200 trials of kill -9 at random moments (CI runs fewer).
+crash trials="200":
+    VOLTOUR_CRASH_TRIALS={{trials}} cargo test --release --locked --test service crash -- --nocapture

@@ -1,0 +1,184 @@
+//! The service as a whole: starts its parts in order, and ends them in the opposite one.
+
+use std::io;
+use std::net::SocketAddr;
+use std::sync::Arc;
+use std::time::Duration;
+
+use tokio::net::TcpListener;
+use tokio::task::JoinHandle;
+use tokio_util::sync::CancellationToken;
+
+use crate::clock::Clock;
+use crate::config::Config;
+use crate::grpc::{Edge, Server, ServerError};
+use crate::lifecycle::Lifecycle;
+use crate::listen::Counted;
+use crate::rest;
+use crate::scheduler::{self, Handle, Running};
+use crate::store::{Store, StoreError};
+
+/// Why the service did not start, or did not end well.
+#[derive(Debug, thiserror::Error)]
+pub enum AppError {
+    /// The database cannot be opened.
+    #[error("store.path {path:?}: {source}")]
+    Open {
+        /// As it was configured.
+        path: String,
+        /// What is wrong with it.
+        source: StoreError,
+    },
+    /// The address is taken, say.
+    #[error("{key}: {address} cannot be listened on: {source}")]
+    Listen {
+        /// The configuration's key.
+        key: &'static str,
+        /// Its value.
+        address: SocketAddr,
+        /// What the system says.
+        source: io::Error,
+    },
+    /// The database failed for good.
+    #[error("the database cannot be written any more: {0}")]
+    Store(#[from] StoreError),
+    /// The gRPC server failed.
+    #[error("grpc: {0}")]
+    Grpc(#[from] ServerError),
+    /// The REST server failed.
+    #[error("rest: {0}")]
+    Rest(io::Error),
+    /// A task died.
+    #[error("a server died: {0}")]
+    Died(#[from] tokio::task::JoinError),
+    /// Not everything ended in time, or a second signal came.
+    #[error("stopped before everything had ended; what was acknowledged is stored")]
+    Hard,
+}
+
+/// The running service.
+#[derive(Debug)]
+pub struct App {
+    /// Where gRPC is served.
+    pub grpc: SocketAddr,
+    /// Where REST is served.
+    pub rest: SocketAddr,
+    lifecycle: Lifecycle,
+    stop_within: Duration,
+    servers: [JoinHandle<Result<(), AppError>>; 2],
+    running: Running,
+    scheduler: CancellationToken,
+}
+
+impl App {
+    /// Starts the store, the scheduler and the listeners, in this order. It answers when it returns.
+    ///
+    /// # Errors
+    /// One of them did not start; those before it have ended again.
+    pub async fn start(
+        config: &Config,
+        clock: Arc<dyn Clock>,
+        lifecycle: Lifecycle,
+    ) -> Result<Self, AppError> {
+        let path = &config.store.path;
+        let opened = Store::open(path, clock.clone()).await;
+        let store =
+            opened.map_err(|source| AppError::Open { path: path.display().to_string(), source })?;
+        let cancel = CancellationToken::new();
+        let settings = config.settings();
+        let (handle, running) = scheduler::start(store, clock, settings, cancel.clone()).await?;
+        let listening = async {
+            let grpc = listen("grpc.listen", config.grpc.listen).await?;
+            let rest = listen("rest.listen", config.rest.listen).await?;
+            Ok::<_, AppError>((grpc, rest))
+        };
+        let ((grpc, grpc_at), (rest, rest_at)) = match listening.await {
+            Ok(listeners) => listeners,
+            Err(error) => {
+                cancel.cancel();
+                running.finished().await?;
+                return Err(error);
+            }
+        };
+        let soft = lifecycle.soft.clone();
+        let edge = Edge::new(handle.clone(), config.grpc_limits(), soft.clone());
+        let rest = Counted::new(rest, config.limits.connections);
+        let servers = [
+            tokio::spawn(async move { Ok(Server::new(edge, grpc).run().await?) }),
+            tokio::spawn(serve_rest(rest, handle, soft)),
+        ];
+        Ok(Self {
+            grpc: grpc_at,
+            rest: rest_at,
+            lifecycle,
+            stop_within: config.lifecycle.stop_within.0,
+            servers,
+            running,
+            scheduler: cancel,
+        })
+    }
+
+    /// Runs until the lifecycle ends it, or until one of its parts fails, which ends the others.
+    ///
+    /// # Errors
+    /// A part failed, or not everything ended in time.
+    pub async fn run(self) -> Result<(), AppError> {
+        let Self { lifecycle, stop_within, servers, running, scheduler, .. } = self;
+        let aborts = servers.each_ref().map(JoinHandle::abort_handle);
+        let ending = async {
+            let [grpc, rest] = servers.map(|server| watched(server, &lifecycle.soft));
+            let failing = async {
+                // The scheduler ends itself where the database fails for good.
+                scheduler.cancelled().await;
+                lifecycle.soft.cancel();
+            };
+            let serving = async {
+                let (grpc, rest) = tokio::join!(grpc, rest);
+                // Only now: a call that still runs may need it.
+                scheduler.cancel();
+                grpc.and(rest)
+            };
+            let (served, ()) = tokio::join!(serving, failing);
+            running.finished().await?;
+            served
+        };
+        let ended = tokio::select! {
+            ended = ending => ended,
+            () = lifecycle.given_up(stop_within) => Err(AppError::Hard),
+        };
+        aborts.iter().for_each(tokio::task::AbortHandle::abort);
+        ended
+    }
+}
+
+/// The end of a server; the first that ends takes the others along.
+async fn watched(
+    server: JoinHandle<Result<(), AppError>>,
+    soft: &CancellationToken,
+) -> Result<(), AppError> {
+    let ended = server.await;
+    soft.cancel();
+    ended?
+}
+
+async fn listen(
+    key: &'static str,
+    address: SocketAddr,
+) -> Result<(TcpListener, SocketAddr), AppError> {
+    let failed = |source| AppError::Listen { key, address, source };
+    let listener = TcpListener::bind(address).await.map_err(failed)?;
+    let at = listener.local_addr().map_err(failed)?;
+    Ok((listener, at))
+}
+
+async fn serve_rest(
+    listener: Counted,
+    handle: Handle,
+    stop: CancellationToken,
+) -> Result<(), AppError> {
+    let router = rest::router(rest::RestState::new(handle.reads().clone(), stop.clone()));
+    axum::serve(listener, router)
+        .with_graceful_shutdown(stop.cancelled_owned())
+        .await
+        .map_err(AppError::Rest)
+}

@@ -1,0 +1,71 @@
+//! The commands, and the one place where a command's failure becomes lines and an exit code.
+
+use std::io::Write;
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+use super::{check, generate, operator, serve, solve};
+
+/// Plans the tours of mobile chargers in wireless rechargeable sensor networks.
+#[derive(Debug, Parser)]
+#[command(name = "voltour", version, propagate_version = true, after_long_help = EXAMPLES)]
+pub struct Cli {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  See the service at work, with a base station and a charger played for you:
+    voltour serve --demo
+
+  Draw a scenario, solve it, check the plan:
+    voltour generate k_coverage --sensors 40 --seed 1 > scenario.json
+    voltour solve scenario.json -o plan.json
+    voltour check scenario.json plan.json
+
+  Run the service, and drive it from another terminal:
+    voltour serve
+    voltour network put network.json
+    voltour request submit --network north --sensor s1 --in 90m --residual-j 1620
+    voltour depart --network north --charger truck-1
+    voltour tour get --network north --charger truck-1 --wait 30s
+
+`voltour help COMMAND` says more about each.";
+
+/// One a file.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Plan one tour: a scenario document in, a plan document out
+    Solve(solve::Args),
+    /// Check a plan against its scenario, independently of the solver
+    Check(check::Args),
+    /// Draw a random scenario
+    Generate(generate::Args),
+    /// Run the scheduling service, or its demonstration
+    Serve(serve::Args),
+    /// What an operator does with a running service.
+    #[command(flatten)]
+    Operator(operator::Command),
+}
+
+/// Runs a command to its exit code; failures go to standard error, one line each.
+pub fn run(cli: Cli) -> ExitCode {
+    let done = match cli.command {
+        Command::Solve(args) => solve::run(args),
+        Command::Check(args) => check::run(args),
+        Command::Generate(args) => generate::run(args),
+        Command::Serve(args) => serve::run(args),
+        Command::Operator(command) => operator::run(command),
+    };
+    done.unwrap_or_else(|failure| {
+        let mut stderr = std::io::stderr().lock();
+        for line in &failure.lines {
+            // With standard error gone there is nobody left to tell.
+            let _ = writeln!(stderr, "voltour: {line}");
+        }
+        ExitCode::from(failure.code)
+    })
+}

@@ -1,0 +1,19 @@
+//! The command tree: each command is a file with its `Args` and its `run`. The only room that prints.
+#![allow(clippy::print_stdout, clippy::print_stderr, reason = "a command line prints")]
+
+pub mod check;
+mod command;
+mod documents;
+pub mod failure;
+pub mod generate;
+mod input;
+pub mod operator;
+mod out;
+mod pretty;
+pub mod serve;
+pub mod solve;
+mod stopwatch;
+
+pub use command::{Cli, Command, run};
+pub use failure::Failure;
+pub use out::say;

@@ -1,0 +1,16 @@
+//! The operator's commands: they do over gRPC, against a running service, what its clients do.
+
+mod arguments;
+mod charger;
+mod client;
+mod command;
+mod depart;
+mod ndjson;
+mod network;
+mod request;
+mod show;
+mod tour;
+
+pub(crate) use arguments::fresh_id;
+pub(crate) use client::{call, connect, refused, unreadable, waiting};
+pub use command::{Command, run};

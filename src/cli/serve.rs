@@ -1,0 +1,111 @@
+//! `voltour serve`: runs the service until it is told to stop.
+
+use std::future::Future;
+use std::path::PathBuf;
+use std::process::ExitCode;
+use std::sync::Arc;
+use std::time::Duration;
+
+use tokio::runtime::Builder;
+
+use super::{Failure, say};
+use crate::app::App;
+use crate::clock::SystemClock;
+use crate::config::{self, Config};
+use crate::lifecycle::Lifecycle;
+use crate::{demo, telemetry};
+
+/// Its arguments.
+#[derive(Debug, clap::Args)]
+#[command(after_long_help = HELP)]
+pub struct Args {
+    /// TOML file with the configuration; every key has a default
+    #[arg(long, value_name = "FILE")]
+    pub config: Option<PathBuf>,
+    /// Play a base station and a charger against the service, in fast motion
+    #[arg(long)]
+    pub demo: bool,
+    /// With --demo: stop after so many departures instead of at Ctrl-C
+    #[arg(long, value_name = "N", requires = "demo", value_parser = clap::value_parser!(u32).range(1..))]
+    pub demo_departures: Option<u32>,
+}
+
+const HELP: &str = "\
+When it is ready it prints one line to standard output,
+  voltour ready grpc=http://127.0.0.1:7440 rest=http://127.0.0.1:7480
+and logs to standard error from then on. SIGTERM or Ctrl-C ends it gently, a second one at once.
+
+Configuration, as TOML (these are the defaults):
+  [grpc]
+  listen = \"127.0.0.1:7440\"    # loopback only; port 0 takes a free one
+  [rest]
+  listen = \"127.0.0.1:7480\"
+  [store]
+  path = \"voltour.db\"          # made where there is none
+  [planning]
+  solver = \"auto\"
+  budget = \"2s\"                # time that the search for a tour may take
+  # lead = \"3s\"                # a batch closes so long before its departure; budget + 1 s
+  max_late = \"10m\"             # a departure that would be later is missed
+  overdue_after = \"30m\"        # silence after the planned finish
+  seed = 0
+  threads = 1
+  [limits]
+  message_bytes = 4194304
+  connections = 1000
+  calls = 1000                 # at once on one connection
+  streams = 256                # watches and submission streams
+  unacknowledged = 1000        # of one submission stream
+  longest_wait = \"5m\"
+  [lifecycle]
+  stop_within = \"10s\"
+  [log]
+  format = \"text\"              # or json
+  filter = \"info\"
+
+The environment goes before the file: VOLTOUR_PLANNING__BUDGET=1s, VOLTOUR_LOG__FORMAT=json.
+
+The demonstration (--demo) takes free ports where the usual ones are taken, and keeps its database in
+a temporary directory unless --config is given.";
+
+/// What still runs when the service has ended is given so long.
+const LAST: Duration = Duration::from_secs(1);
+
+/// Runs the command.
+pub fn run(args: Args) -> Result<ExitCode, Failure> {
+    let config = config::load(args.config.as_deref())
+        .map_err(|errors| Failure { code: 2, lines: errors.0 })?;
+    if args.demo {
+        // Its lines are the demonstration; of the log only what goes wrong.
+        let log = config::Log { filter: "warn".to_owned(), ..config.log.clone() };
+        let log = if args.config.is_some() { config.log.clone() } else { log };
+        telemetry::init(&log).map_err(|error| Failure::input(error.to_string()))?;
+        let configured = args.config.is_some().then_some(config);
+        return block_on(demo::run(configured, args.demo_departures));
+    }
+    telemetry::init(&config.log).map_err(|error| Failure::input(error.to_string()))?;
+    block_on(serve(config))
+}
+
+async fn serve(config: Config) -> Result<(), Failure> {
+    let lifecycle = Lifecycle::default();
+    let failed = |error: &dyn std::error::Error| Failure::other(error.to_string());
+    lifecycle.listen().map_err(|error| failed(&error))?;
+    let started = App::start(&config, Arc::new(SystemClock), lifecycle).await;
+    let app = started.map_err(|error| failed(&error))?;
+    say(format!("voltour ready grpc=http://{} rest=http://{}", app.grpc, app.rest));
+    app.run().await.map_err(|error| failed(&error))
+}
+
+/// Runs a future on a runtime of its own, to an exit code.
+pub(super) fn block_on(
+    future: impl Future<Output = Result<(), Failure>>,
+) -> Result<ExitCode, Failure> {
+    let runtime = Builder::new_multi_thread()
+        .enable_all()
+        .build()
+        .map_err(|error| Failure::other(format!("no runtime: {error}")))?;
+    let ended = runtime.block_on(future);
+    runtime.shutdown_timeout(LAST);
+    ended.map(|()| ExitCode::SUCCESS)
+}

@@ -1,0 +1,129 @@
+//! `voltour solve`. Plans one tour: a scenario document in, a plan document out, checked before it is
+//! shown.
+
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::time::Duration;
+
+use voltour_solver::check::check;
+use voltour_solver::plan::Plan;
+use voltour_solver::scenario::Scenario;
+use voltour_solver::solvers::{self, Options, SolverName};
+
+use super::stopwatch::Stopwatch;
+use super::{Failure, documents, pretty};
+use crate::svg;
+
+/// Where neither a time nor a number of iterations is given.
+const DEFAULT_LIMIT: Duration = Duration::from_secs(1);
+
+/// Its arguments.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Solvers: auto (what the service runs), baseline, exact, dqn, greedy, nearest, random, and the
+comparison algorithms acs, dp, mst, cmst, app. Not every version has every solver.
+
+Exit codes:
+  0  the tour keeps every constraint
+  1  no feasible tour was found, or there is none; the plan says which, and what it breaks
+  2  bad arguments, or a scenario that breaks a rule of the format
+  3  the plan could not be written, or did not pass the check (a defect)
+
+Examples:
+  voltour solve scenario.json
+  voltour solve scenario.json --time-limit 250ms -o plan.json --svg plan.svg
+  voltour generate reward --seed 7 | voltour solve - --iterations 1000")]
+pub struct Args {
+    /// The scenario document; - is standard input
+    pub scenario: PathBuf,
+    /// The solver
+    #[arg(long, value_name = "NAME", default_value = "auto")]
+    pub solver: String,
+    /// Stop after this time, such as 250ms, 1s or 2m [default: 1s, unless --iterations is given]
+    #[arg(long, value_name = "TIME", value_parser = time)]
+    pub time_limit: Option<Duration>,
+    /// Stop after so many iterations: the repeatable rule. With --time-limit, whichever comes first
+    #[arg(long, value_name = "N")]
+    pub iterations: Option<u64>,
+    /// Seed of every random choice
+    #[arg(long, value_name = "S", default_value_t = 0)]
+    pub seed: u64,
+    /// Trained policy (ONNX), for the solvers auto and dqn
+    #[arg(long, value_name = "FILE")]
+    pub model: Option<PathBuf>,
+    /// Also draw the plan into this file
+    #[arg(long, value_name = "FILE")]
+    pub svg: Option<PathBuf>,
+    /// Write the plan into this file instead of standard output
+    #[arg(short, long, value_name = "PLAN")]
+    pub output: Option<PathBuf>,
+}
+
+/// Runs the command.
+pub fn run(args: Args) -> Result<ExitCode, Failure> {
+    let solver = solver(&args)?;
+    if let Some(svg) = args.svg.as_deref().filter(|svg| documents::is_standard(svg)) {
+        return Err(Failure::input(format!("--svg {}: must be a file", svg.display())));
+    }
+    let scenario = documents::scenario(&args.scenario)?;
+    let plan = plan(&scenario, solver, &args)?;
+    // The picture first: where it cannot be written, there is no plan on standard output either.
+    if let Some(path) = &args.svg {
+        documents::write(Some(path), &svg::picture(&scenario, &plan))?;
+    }
+    documents::write(args.output.as_deref(), &pretty::json(&plan)?)?;
+    Ok(if plan.status.is_feasible() { ExitCode::SUCCESS } else { ExitCode::from(1) })
+}
+
+fn solver(args: &Args) -> Result<SolverName, Failure> {
+    let solver: SolverName = args.solver.parse().map_err(|error| {
+        let known = SolverName::ALL.map(SolverName::name).join(", ");
+        Failure::input(format!("--solver: {error}; known: {known}"))
+    })?;
+    match &args.model {
+        Some(path) => Err(no_model(path, solver)),
+        None => Ok(solver),
+    }
+}
+
+fn no_model(path: &Path, solver: SolverName) -> Failure {
+    let why = match solver {
+        SolverName::Auto | SolverName::Dqn => "this version runs no trained policy; leave it out",
+        _ => "only the solvers auto and dqn use a trained policy",
+    };
+    Failure::input(format!("--model {:?}: {why}", path.display().to_string()))
+}
+
+/// Solves and checks.
+fn plan(scenario: &Scenario, solver: SolverName, args: &Args) -> Result<Plan, Failure> {
+    let limit = match (args.time_limit, args.iterations) {
+        (None, None) => Some(DEFAULT_LIMIT),
+        (limit, _) => limit,
+    };
+    let watch = Stopwatch::start();
+    let stop = |iterations: u64| {
+        args.iterations.is_some_and(|most| iterations >= most)
+            || limit.is_some_and(|limit| watch.elapsed() >= limit)
+    };
+    let solved = solvers::solve(scenario, &Options { solver, seed: args.seed, stop: &stop });
+    let mut plan = solved.map_err(|error| Failure::input(format!("--solver: {error}")))?.plan;
+    plan.elapsed_s = watch.elapsed().as_secs_f64();
+    let broken = check(scenario, &plan);
+    if broken.is_empty() { Ok(plan) } else { Err(refused(&plan.solver, &broken)) }
+}
+
+/// A plan that does not hold is never shown: it is a defect of the solver or of the checker.
+fn refused(solver: &str, broken: &[impl std::fmt::Display]) -> Failure {
+    const MOST: usize = 5;
+    let first =
+        format!("defect: the plan of {solver} breaks {} rules; please report it", broken.len());
+    let rules = broken.iter().take(MOST).map(|rule| format!("defect: {rule}"));
+    Failure { code: documents::BROKEN, lines: std::iter::once(first).chain(rules).collect() }
+}
+
+/// Such as `250ms`, `1s`, `1m 30s`.
+fn time(text: &str) -> Result<Duration, String> {
+    const RULE: &str = "must be a time such as 250ms, 1s or 2m";
+    let time: jiff::SignedDuration = text.parse().map_err(|_| RULE.to_owned())?;
+    Duration::try_from(time).map_err(|_| RULE.to_owned())
+}

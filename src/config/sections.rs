@@ -1,0 +1,179 @@
+//! The sections, one struct a concern, each with its defaults.
+
+use std::net::{Ipv4Addr, SocketAddr};
+use std::path::PathBuf;
+
+use serde::Deserialize;
+
+use super::Span;
+
+/// All of it.
+#[derive(Clone, Debug, PartialEq, Default, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Config {
+    /// `[grpc]`
+    pub grpc: Grpc,
+    /// `[rest]`
+    pub rest: Rest,
+    /// `[store]`
+    pub store: Store,
+    /// `[planning]`
+    pub planning: Planning,
+    /// `[limits]`
+    pub limits: Limits,
+    /// `[lifecycle]`
+    pub lifecycle: Lifecycle,
+    /// `[log]`
+    pub log: Log,
+}
+
+/// Where gRPC is served.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Grpc {
+    /// Loopback only; port 0 takes a free one.
+    pub listen: SocketAddr,
+}
+
+/// Where REST is served.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Rest {
+    /// Loopback only; port 0 takes a free one.
+    pub listen: SocketAddr,
+}
+
+/// The database.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Store {
+    /// Its file; made where there is none.
+    pub path: PathBuf,
+}
+
+/// How tours are planned.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Planning {
+    /// Which solver plans.
+    pub solver: String,
+    /// Time that the search for a tour may take.
+    pub budget: Span,
+    /// From the close of a batch to the departure; the budget and a second if none.
+    pub lead: Option<Span>,
+    /// A departure that would start later than this is missed.
+    pub max_late: Span,
+    /// A tour of which nothing was heard for so long after its planned finish is overdue.
+    pub overdue_after: Span,
+    /// Seed of every search.
+    pub seed: u64,
+    /// Departures of different networks that are planned at once.
+    pub threads: usize,
+}
+
+/// What bounds the edges.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Limits {
+    /// Bytes of one message.
+    pub message_bytes: usize,
+    /// Connections at once, gRPC and REST each.
+    pub connections: usize,
+    /// gRPC calls at once on one connection.
+    pub calls: u32,
+    /// Watches and submission streams at once, over all connections.
+    pub streams: usize,
+    /// Items of one submission stream that are taken and not acknowledged yet.
+    pub unacknowledged: usize,
+    /// How long a call waits at most.
+    pub longest_wait: Span,
+}
+
+/// How the service ends.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Lifecycle {
+    /// Time for running calls and searches after the first signal.
+    pub stop_within: Span,
+}
+
+/// What is logged, to standard error.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Log {
+    /// How lines look.
+    pub format: Format,
+    /// As `tracing` spells filters, such as `info,voltour=debug`.
+    pub filter: String,
+}
+
+/// How log lines look.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Format {
+    /// For people.
+    Text,
+    /// One JSON object a line.
+    Json,
+}
+
+const fn loopback(port: u16) -> SocketAddr {
+    SocketAddr::new(std::net::IpAddr::V4(Ipv4Addr::LOCALHOST), port)
+}
+
+impl Default for Grpc {
+    fn default() -> Self {
+        Self { listen: loopback(7440) }
+    }
+}
+
+impl Default for Rest {
+    fn default() -> Self {
+        Self { listen: loopback(7480) }
+    }
+}
+
+impl Default for Store {
+    fn default() -> Self {
+        Self { path: "voltour.db".into() }
+    }
+}
+
+impl Default for Planning {
+    fn default() -> Self {
+        Self {
+            solver: "auto".to_owned(),
+            budget: Span::seconds(2),
+            lead: None,
+            max_late: Span::seconds(600),
+            overdue_after: Span::seconds(1_800),
+            seed: 0,
+            threads: 1,
+        }
+    }
+}
+
+impl Default for Limits {
+    fn default() -> Self {
+        Self {
+            message_bytes: 4 * 1024 * 1024,
+            connections: 1_000,
+            calls: 1_000,
+            streams: 256,
+            unacknowledged: 1_000,
+            longest_wait: Span::seconds(300),
+        }
+    }
+}
+
+impl Default for Lifecycle {
+    fn default() -> Self {
+        Self { stop_within: Span::seconds(10) }
+    }
+}
+
+impl Default for Log {
+    fn default() -> Self {
+        Self { format: Format::Text, filter: "info".to_owned() }
+    }
+}

@@ -1,0 +1,132 @@
+//! `DepartureService`.
+
+use std::pin::Pin;
+
+use futures_util::Stream;
+use tonic::{Request, Response, Status};
+
+use super::status::read_failed;
+use super::watch::{Followed, follow};
+use super::wire::{self, Fields, Path};
+use super::{Edge, page_token};
+use crate::domain::{self, Call, ChargerId, DepartureId, NetworkId, Refusal};
+use crate::proto::departure_service_server::DepartureService;
+use crate::proto::{
+    AnnounceRequest, CancelDepartureRequest, Departure, DepartureChange, GetDepartureRequest,
+    ListDeparturesRequest, ListDeparturesResponse, WatchDeparturesRequest,
+};
+use crate::scheduler::CancelDeparture;
+use crate::store::{DepartureFilter, Reads, StoreError};
+
+/// The longest reason of a cancellation.
+const REASON_BYTES: usize = 256;
+
+#[tonic::async_trait]
+impl DepartureService for Edge {
+    type WatchStream = Pin<Box<dyn Stream<Item = Result<DepartureChange, Status>> + Send>>;
+
+    async fn announce(
+        &self,
+        call: Request<AnnounceRequest>,
+    ) -> Result<Response<Departure>, Status> {
+        let call = wire::announcement(call.into_inner())?;
+        let departure = self.handle.announce(call).await?;
+        Ok(Response::new(wire::departure_to_wire(departure)))
+    }
+
+    async fn cancel(
+        &self,
+        call: Request<CancelDepartureRequest>,
+    ) -> Result<Response<Departure>, Status> {
+        let call = cancel(call.into_inner())?;
+        let departure = self.handle.cancel(call).await?;
+        Ok(Response::new(wire::departure_to_wire(departure)))
+    }
+
+    async fn get(&self, call: Request<GetDepartureRequest>) -> Result<Response<Departure>, Status> {
+        let mut fields = Fields::default();
+        let id = fields.id(Path::ROOT.field("departure_id"), &call.into_inner().departure_id);
+        let id: DepartureId = fields.finish(id)?;
+        let departure = self.handle.reads().departure(id).await.map_err(read_failed)?;
+        let departure =
+            departure.ok_or(Refusal::NotFound { what: "departure", id: id.to_string() })?;
+        Ok(Response::new(wire::departure_to_wire(departure)))
+    }
+
+    async fn list(
+        &self,
+        call: Request<ListDeparturesRequest>,
+    ) -> Result<Response<ListDeparturesResponse>, Status> {
+        let call = call.into_inner();
+        let mut fields = Fields::default();
+        let at = Path::ROOT;
+        let page = page_token::page::<DepartureId>(&mut fields, call.page_size, &call.page_token);
+        let network_id = fields.optional_id(at.field("network_id"), &call.network_id);
+        let charger_id = fields.optional_id(at.field("charger_id"), &call.charger_id);
+        let states = fields.each(at.field("states"), call.states, wire::departure_state);
+        let filter =
+            network_id.zip(charger_id).zip(states).map(|((network_id, charger_id), states)| {
+                DepartureFilter { network_id, charger_id, states }
+            });
+        let (filter, page) = fields.finish(filter.zip(page))?;
+        let listed = self.handle.reads().departures(&filter, &page).await.map_err(read_failed)?;
+        Ok(Response::new(ListDeparturesResponse {
+            departures: listed.items.into_iter().map(wire::departure_to_wire).collect(),
+            next_page_token: page_token::token(listed.next),
+        }))
+    }
+
+    async fn watch(
+        &self,
+        call: Request<WatchDeparturesRequest>,
+    ) -> Result<Response<Self::WatchStream>, Status> {
+        let call = call.into_inner();
+        let mut fields = Fields::default();
+        let network = fields.id(Path::ROOT.field("network_id"), &call.network_id);
+        let charger = fields.optional_id(Path::ROOT.field("charger_id"), &call.charger_id);
+        let (network, charger): (NetworkId, Option<ChargerId>) =
+            fields.finish(network.zip(charger))?;
+        let wanted = move |departure: &domain::Departure| {
+            charger.as_ref().is_none_or(|id| *id == departure.announced.charger_id)
+        };
+        Ok(Response::new(Box::pin(follow(self, network, wanted).await?)))
+    }
+}
+
+fn cancel(wire: CancelDepartureRequest) -> Result<Call<CancelDeparture>, Refusal> {
+    let mut fields = Fields::default();
+    let client_id = fields.client_id(&wire.client_id);
+    let departure_id = fields.id(Path::ROOT.field("departure_id"), &wire.departure_id);
+    let reason = fields.text(Path::ROOT.field("reason"), wire.reason, REASON_BYTES);
+    let content = departure_id.zip(reason).map(|(departure_id, reason)| CancelDeparture {
+        departure_id,
+        reason: reason.unwrap_or_default(),
+    });
+    fields.finish(client_id.zip(content).map(|(client_id, content)| Call { client_id, content }))
+}
+
+impl Followed for domain::Departure {
+    type Message = DepartureChange;
+
+    async fn live(reads: &Reads, network: &NetworkId) -> Result<(Vec<Self>, u64), StoreError> {
+        reads.live_departures(network).await
+    }
+
+    async fn since(
+        reads: &Reads,
+        network: &NetworkId,
+        change: u64,
+        limit: u32,
+    ) -> Result<Vec<Self>, StoreError> {
+        reads.departures_since(network, change, limit).await
+    }
+
+    fn change(&self) -> u64 {
+        self.change
+    }
+
+    fn message(self, initial: bool) -> DepartureChange {
+        let change = self.change;
+        DepartureChange { departure: Some(wire::departure_to_wire(self)), initial, change }
+    }
+}

@@ -1,0 +1,112 @@
+//! The server: the four services, health and reflection on one listener.
+
+use std::time::Duration;
+
+use tokio::net::TcpListener;
+use tonic::server::NamedService;
+use tonic_health::ServingStatus;
+use tonic_health::server::HealthReporter;
+
+use super::Edge;
+use crate::listen;
+use crate::proto::DESCRIPTORS;
+use crate::proto::departure_service_server::DepartureServiceServer;
+use crate::proto::network_service_server::NetworkServiceServer;
+use crate::proto::request_service_server::RequestServiceServer;
+use crate::proto::tour_service_server::TourServiceServer;
+
+/// Bytes of a call's headers.
+const HEADER_BYTES: u32 = 16 * 1024;
+/// A connection that is silent for so long is asked whether it is still there.
+const KEEPALIVE: Duration = Duration::from_secs(30);
+/// And it has so long to answer.
+const KEEPALIVE_ANSWER: Duration = Duration::from_secs(10);
+/// What a call may take beyond the longest wait before it is cut off.
+const CALL_SLACK: Duration = Duration::from_secs(10);
+
+/// What went wrong with the server itself.
+#[derive(Debug, thiserror::Error)]
+pub enum ServerError {
+    /// The descriptors that reflection shows are broken.
+    #[error("reflection: {0}")]
+    Reflection(#[from] tonic_reflection::server::Error),
+    /// The transport gave up.
+    #[error("transport: {0}")]
+    Transport(#[from] tonic::transport::Error),
+}
+
+/// Serves until the edge is stopped and the calls that run then are answered.
+#[derive(Debug)]
+pub struct Server {
+    edge: Edge,
+    listener: TcpListener,
+}
+
+impl Server {
+    /// On a bound listener.
+    pub fn new(edge: Edge, listener: TcpListener) -> Self {
+        Self { edge, listener }
+    }
+
+    /// Runs to its end.
+    pub async fn run(self) -> Result<(), ServerError> {
+        let Self { edge, listener } = self;
+        let (limits, stop) = (edge.limits, edge.stop.clone());
+        let (reporter, health) = tonic_health::server::health_reporter();
+        report(&reporter, ServingStatus::Serving).await;
+        let reflection = tonic_reflection::server::Builder::configure()
+            .register_encoded_file_descriptor_set(DESCRIPTORS)
+            .register_encoded_file_descriptor_set(tonic_health::pb::FILE_DESCRIPTOR_SET)
+            .build_v1()?;
+        macro_rules! limited {
+            ($server:ident) => {
+                $server::new(edge.clone())
+                    .max_decoding_message_size(limits.message_bytes)
+                    .max_encoding_message_size(limits.message_bytes)
+            };
+        }
+        let stopping = async move {
+            stop.cancelled().await;
+            report(&reporter, ServingStatus::NotServing).await;
+            // Ends the watches of the health service, which would keep their connections open.
+            close(reporter).await;
+        };
+        tonic::transport::Server::builder()
+            .trace_fn(|call| tracing::debug_span!("grpc", path = call.uri().path()))
+            .timeout(limits.longest_wait + CALL_SLACK)
+            .max_concurrent_streams(limits.calls)
+            .http2_max_header_list_size(HEADER_BYTES)
+            .http2_keepalive_interval(Some(KEEPALIVE))
+            .http2_keepalive_timeout(Some(KEEPALIVE_ANSWER))
+            .add_service(health)
+            .add_service(reflection)
+            .add_service(limited!(NetworkServiceServer))
+            .add_service(limited!(RequestServiceServer))
+            .add_service(limited!(DepartureServiceServer))
+            .add_service(limited!(TourServiceServer))
+            .serve_with_incoming_shutdown(listen::incoming(listener, limits.connections), stopping)
+            .await?;
+        Ok(())
+    }
+}
+
+/// Every service of ours, and the empty name that stands for all.
+const SERVICES: [&str; 5] = [
+    "",
+    NetworkServiceServer::<Edge>::NAME,
+    RequestServiceServer::<Edge>::NAME,
+    DepartureServiceServer::<Edge>::NAME,
+    TourServiceServer::<Edge>::NAME,
+];
+
+async fn report(reporter: &HealthReporter, status: ServingStatus) {
+    for service in SERVICES {
+        reporter.set_service_status(service, status).await;
+    }
+}
+
+async fn close(mut reporter: HealthReporter) {
+    for service in SERVICES {
+        reporter.clear_service_status(service).await;
+    }
+}

@@ -1,0 +1,59 @@
+//! Many submissions on one stream, pipelined: many are with the writer at once, and their
+//! acknowledgements leave in the order of the items.
+
+use futures_util::stream::{self, Stream, StreamExt};
+use tokio::sync::OwnedSemaphorePermit;
+use tonic::{Status, Streaming};
+
+use super::Edge;
+use super::status::stopping;
+use super::wire;
+use crate::proto::acknowledgement::Result as Outcome;
+use crate::proto::{Acknowledgement, SubmitRequest};
+use crate::scheduler::Handle;
+
+/// The acknowledgements of a stream of submissions.
+///
+/// Items are handed to the scheduler in order: a submission joins the writer's queue when it is first
+/// polled, and they are polled first in order. With `unacknowledged` of them under way no further item
+/// is taken, which holds the client back through HTTP/2's flow control. Dropping it (the client is gone)
+/// drops what is under way; ending the input drains it.
+pub(super) fn acknowledge(
+    edge: Edge,
+    items: Streaming<SubmitRequest>,
+    permit: OwnedSemaphorePermit,
+) -> impl Stream<Item = Result<Acknowledgement, Status>> + Send {
+    let Edge { handle, limits, stop, .. } = edge;
+    let stopped = stop.clone();
+    let last = stream::once(async move { stopped.is_cancelled().then(|| Err(stopping())) });
+    items
+        .take_until(stop.cancelled_owned())
+        .enumerate()
+        .map(move |(position, item)| submit(handle.clone(), position as u64, item))
+        .buffered(limits.unacknowledged)
+        .chain(last.filter_map(std::future::ready))
+        .inspect(move |_| {
+            // Held for as long as the stream lives.
+            let _ = &permit;
+        })
+}
+
+async fn submit(
+    handle: Handle,
+    position: u64,
+    item: Result<SubmitRequest, Status>,
+) -> Result<Acknowledgement, Status> {
+    // A broken transport or an undecodable message ends the stream: what follows cannot be read.
+    let mut item = item?;
+    // Kept to name the item also where it is refused, though no more of it than an id may have.
+    let client_id = item.client_id.chars().take(64).collect();
+    let submitted = match wire::new_request(std::mem::take(&mut item)) {
+        Ok(call) => handle.submit(call).await,
+        Err(refusal) => Err(refusal),
+    };
+    let result = match submitted {
+        Ok(request) => Outcome::Request(wire::request_to_wire(request)),
+        Err(refusal) => Outcome::Refused(refusal.into()),
+    };
+    Ok(Acknowledgement { position, client_id, result: Some(result) })
+}

@@ -1,0 +1,20 @@
+//! The REST edge: what the service has stored, to be read. Nothing is changed here; every error is a
+//! problem document (RFC 9457), logged once if it is the service's own.
+
+mod dress;
+mod health;
+mod immutable;
+mod lists;
+mod openapi;
+mod plans;
+mod problem;
+mod query;
+mod router;
+mod state;
+mod view;
+
+#[cfg(test)]
+mod tests;
+
+pub use router::router;
+pub use state::RestState;

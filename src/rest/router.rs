@@ -1,0 +1,27 @@
+//! The routes.
+
+use axum::Router;
+use axum::routing::get;
+
+use super::dress::dress;
+use super::{RestState, health, lists, openapi, plans};
+
+/// Every route of the REST edge, with its layers.
+pub fn router(state: RestState) -> Router {
+    let routes = Router::new()
+        .route("/v1/networks", get(lists::networks))
+        .route("/v1/networks/{id}", get(lists::network))
+        .route("/v1/requests", get(lists::requests))
+        .route("/v1/requests/{id}", get(lists::request))
+        .route("/v1/departures", get(lists::departures))
+        .route("/v1/departures/{id}", get(lists::departure))
+        .route("/v1/plans", get(plans::plans))
+        // One segment holds no parameter with a suffix: the handler splits `{id}` and `{id}.svg`.
+        .route("/v1/plans/{id}", get(plans::plan))
+        .route("/v1/plans/{id}/scenario", get(plans::scenario))
+        .route("/openapi.json", get(openapi::document))
+        .route("/healthz", get(health::healthz))
+        .route("/readyz", get(health::readyz))
+        .with_state(state);
+    dress(routes)
+}

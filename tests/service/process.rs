@@ -1,0 +1,153 @@
+//! The process: one a database, a clean end, configuration, health and reflection.
+
+use std::process::{Command, Stdio};
+
+use tonic_health::pb::HealthCheckRequest;
+use tonic_health::pb::health_check_response::ServingStatus;
+use tonic_health::pb::health_client::HealthClient;
+use voltour::proto::{AnnounceRequest, WatchRequestsRequest};
+
+use crate::app::{TestApp, wait_exit};
+use crate::calls::{OPEN, soon};
+use crate::field::{FIELD, departure, line};
+use crate::time::from_now;
+
+fn serve() -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_voltour"));
+    command.arg("serve").stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    command
+}
+
+#[tokio::test]
+async fn a_second_process_on_the_same_database_is_refused() {
+    let app = TestApp::start().await;
+    app.put(line(1)).await;
+    let mut second = serve().arg("--config").arg(app.config_path()).spawn().unwrap();
+    let status = wait_exit(&mut second).unwrap_or_else(|| {
+        let _ = second.kill();
+        panic!("the second process runs");
+    });
+    assert!(!status.success());
+    let output = second.wait_with_output().unwrap();
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(output.stdout.is_empty(), "never ready");
+    assert!(said.contains("voltour.db"), "names the database: {said}");
+    // The first one does not mind.
+    assert_eq!(app.ask("s1").await.state, OPEN);
+}
+
+#[tokio::test]
+async fn sigterm_ends_it_cleanly_and_loses_nothing() {
+    let mut app = TestApp::start().await;
+    app.put(line(1)).await;
+    let asked = app.ask("s1").await;
+    let announced =
+        app.announce(AnnounceRequest { t0: from_now(3_600_000), ..departure("A") }).await;
+    // Somebody who watches or waits does not keep it from ending.
+    let watch = WatchRequestsRequest { network_id: FIELD.into() };
+    let mut watching = app.requests().watch(watch).await.unwrap().into_inner();
+    let mut tours = app.tours();
+    let waiting = tokio::spawn(async move {
+        let next = voltour::proto::GetNextRequest {
+            network_id: FIELD.into(),
+            charger_id: "A".into(),
+            departure_id: String::new(),
+        };
+        tours.get_next(next).await
+    });
+    soon("the present state", watching.message()).await.unwrap();
+    let status = app.sigterm();
+    assert_eq!(status.code(), Some(0), "{status}");
+    assert!(soon("the end of the wait", waiting).await.unwrap().is_err());
+    app.launch().await;
+    assert_eq!(app.request(&asked.id).await.state, OPEN);
+    assert_eq!(app.departure(&announced.id).await, announced);
+}
+
+#[tokio::test]
+async fn sigterm_in_the_middle_of_planning_loses_nothing() {
+    let mut app = TestApp::start().await;
+    app.put(line(3)).await;
+    app.ask("s1").await;
+    let announced = app.depart("A").await;
+    tokio::time::sleep(std::time::Duration::from_millis(100)).await;
+    assert_eq!(app.sigterm().code(), Some(0));
+    app.launch().await;
+    let tour = app.tour(&announced).await;
+    assert_eq!((tour.revision, tour.stops.len()), (1, 1));
+}
+
+#[tokio::test]
+async fn health_and_reflection_answer() {
+    let app = TestApp::start().await;
+    let mut health = HealthClient::new(app.channel());
+    for service in ["", "voltour.v1.RequestService", "voltour.v1.TourService"] {
+        let check = HealthCheckRequest { service: service.into() };
+        let answer = health.check(check).await.unwrap().into_inner();
+        assert_eq!(answer.status, ServingStatus::Serving as i32, "{service:?}");
+    }
+    use tonic_reflection::pb::v1::server_reflection_client::ServerReflectionClient;
+    use tonic_reflection::pb::v1::server_reflection_request::MessageRequest;
+    use tonic_reflection::pb::v1::server_reflection_response::MessageResponse;
+    let list = tonic_reflection::pb::v1::ServerReflectionRequest {
+        host: String::new(),
+        message_request: Some(MessageRequest::ListServices(String::new())),
+    };
+    let mut reflection = ServerReflectionClient::new(app.channel());
+    let mut answers =
+        reflection.server_reflection_info(tokio_stream::once(list)).await.unwrap().into_inner();
+    let answer = soon("reflection", answers.message()).await.unwrap().unwrap();
+    let Some(MessageResponse::ListServicesResponse(list)) = answer.message_response else {
+        panic!("{answer:?}")
+    };
+    for name in ["NetworkService", "RequestService", "DepartureService", "TourService"] {
+        let name = format!("voltour.v1.{name}");
+        assert!(list.service.iter().any(|service| service.name == name), "{name}");
+    }
+}
+
+#[tokio::test]
+async fn a_bad_configuration_is_refused_with_the_name_of_the_field() {
+    let app = TestApp::start().await;
+    for (text, field) in [
+        ("[planning]\nbudget = \"soon\"\n", "budget"),
+        ("[planning]\nsolver = \"oracle\"\n", "solver"),
+        ("[planning]\nbudgett = \"1s\"\n", "budgett"),
+        ("[grpc]\nlisten = \"everywhere\"\n", "listen"),
+        // As long as there is no authentication.
+        ("[grpc]\nlisten = \"0.0.0.0:0\"\n", "listen"),
+        ("[rest]\nlisten = \"0.0.0.0:0\"\n", "listen"),
+    ] {
+        let path = app.file("bad.toml");
+        let store = format!("[store]\npath = {:?}\n", app.file("bad.db"));
+        std::fs::write(&path, format!("{text}\n{store}")).unwrap();
+        let mut server = serve().arg("--config").arg(&path).spawn().unwrap();
+        let status = wait_exit(&mut server).unwrap_or_else(|| {
+            let _ = server.kill();
+            panic!("it runs with {text:?}");
+        });
+        let output = server.wait_with_output().unwrap();
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(status.code(), Some(2), "{text:?}: {said}");
+        assert!(said.contains(field), "{text:?}: {said}");
+        assert!(output.stdout.is_empty());
+    }
+}
+
+#[tokio::test]
+async fn the_environment_overrides_the_file() {
+    let app = TestApp::start().await;
+    let mut server = serve()
+        .arg("--config")
+        .arg(app.config_path())
+        .env("VOLTOUR_STORE__PATH", app.file("other.db"))
+        .env("VOLTOUR_PLANNING__BUDGET", "soon")
+        .spawn()
+        .unwrap();
+    let status = wait_exit(&mut server);
+    let _ = server.kill();
+    let output = server.wait_with_output().unwrap();
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(status.and_then(|status| status.code()), Some(2), "{said}");
+    assert!(said.to_lowercase().contains("budget"), "{said}");
+}
