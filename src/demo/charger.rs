@@ -98,9 +98,11 @@ async fn drive(
     play.tell(charger, &plan);
     play.clock.sleep_until(tour.start).await;
     for stop in &tour.stops {
-        play.clock.sleep_until(stop.depart).await;
+        play.clock.sleep_until(stop.arrive).await;
         let percent = 100.0 * play.world.share(&stop.sensor_id, stop.arrive);
+        // From the plug on: a sensor that is being charged does not ask.
         play.world.charged(&stop.sensor_id, stop.depart);
+        play.clock.sleep_until(stop.depart).await;
         report(client, &tour, stop).await?;
         let (sensor, energy) = (&stop.sensor_id, stop.charge_j);
         let what =

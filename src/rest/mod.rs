@@ -13,5 +13,8 @@ mod router;
 mod state;
 mod view;
 
+#[cfg(test)]
+mod tests;
+
 pub use router::router;
 pub use state::RestState;

@@ -16,4 +16,7 @@ mod tour;
 mod trails;
 mod view;
 
+#[cfg(test)]
+mod tests;
+
 pub use picture::picture;

@@ -1,0 +1,213 @@
+//! The commands `solve`, `check` and `generate` of the real binary: exit codes, what goes where,
+//! standard input, bad documents.
+
+use std::fs;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+
+use serde_json::Value;
+
+const SMALL: &str = r#"{
+  "format": "voltour/scenario/1", "name": "small", "objective": "min_distance",
+  "charger": {"start_m": [250, 250], "end_m": [250, 250], "speed_mps": 5, "travel_jpm": 600,
+              "transfer_w": 20, "capacity_j": null, "timespan_s": null},
+  "charge_level": 1.0,
+  "coverage": {"k": 1, "field_m": [[0,0],[300,0],[300,300],[0,300]]},
+  "sensors": [{"id": "s1", "position_m": [150, 150], "range_m": 250, "battery_j": 10800}],
+  "requests": [{"sensor": "s1", "ready_s": 0, "deadline_s": 5400, "residual_j": 1620,
+                "drain_w": 0.3, "reward": 9180, "required": false}]
+}"#;
+
+/// Runs the binary with what stands on its standard input.
+fn voltour(arguments: &[&str], input: &str) -> Output {
+    let mut child = Command::new(env!("CARGO_BIN_EXE_voltour"))
+        .args(arguments)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    // A command that refuses its arguments does not read its input.
+    let _ = child.stdin.take().unwrap().write_all(input.as_bytes());
+    child.wait_with_output().unwrap()
+}
+
+fn code(output: &Output) -> i32 {
+    output.status.code().unwrap()
+}
+
+fn text(bytes: &[u8]) -> &str {
+    std::str::from_utf8(bytes).unwrap()
+}
+
+/// Exit code 2, nothing on standard output, one line on standard error; the line.
+fn refused(output: &Output) -> String {
+    assert_eq!(code(output), 2, "{}", text(&output.stderr));
+    assert!(output.stdout.is_empty());
+    let line = text(&output.stderr).strip_suffix('\n').unwrap();
+    assert!(!line.is_empty() && !line.contains('\n'), "{line:?}");
+    line.to_owned()
+}
+
+fn file(folder: &Path, name: &str, content: &str) -> String {
+    let path: PathBuf = folder.join(name);
+    fs::write(&path, content).unwrap();
+    path.to_str().unwrap().to_owned()
+}
+
+fn json(bytes: &[u8]) -> Value {
+    serde_json::from_slice(bytes).unwrap()
+}
+
+#[test]
+fn a_scenario_is_solved_and_its_plan_holds() {
+    let folder = tempfile::tempdir().unwrap();
+    let scenario = file(folder.path(), "scenario.json", SMALL);
+    let output = voltour(&["solve", &scenario, "--time-limit", "100ms"], "");
+    assert_eq!(code(&output), 0, "{}", text(&output.stderr));
+    assert!(output.stderr.is_empty());
+    let plan = json(&output.stdout);
+    assert_eq!(plan["format"], "voltour/plan/1");
+    assert!((plan["objective"].as_f64().unwrap() - 282.842_712).abs() < 1e-3);
+    assert!(plan["elapsed_s"].as_f64().unwrap() > 0.0);
+
+    let output = voltour(&["check", &scenario, "-"], text(&output.stdout));
+    assert_eq!(code(&output), 0, "{}", text(&output.stdout));
+    assert!(output.stdout.is_empty() && output.stderr.is_empty());
+}
+
+#[test]
+fn a_broken_plan_is_told_line_by_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let scenario = file(folder.path(), "scenario.json", SMALL);
+    let solved = voltour(&["solve", &scenario, "--iterations", "10"], "");
+    let mut plan = json(&solved.stdout);
+    plan["distance_m"] = 5.into();
+    plan["stops"][0]["arrive_s"] = 1.into();
+    let plan = file(folder.path(), "plan.json", &plan.to_string());
+    let output = voltour(&["check", &scenario, &plan], "");
+    assert_eq!(code(&output), 1);
+    let lines: Vec<_> = text(&output.stdout).lines().collect();
+    assert!(lines.iter().any(|line| line.starts_with("distance_m: ")), "{lines:?}");
+    assert!(lines.iter().any(|line| line.starts_with("stops[0].arrive_s: ")), "{lines:?}");
+}
+
+#[test]
+fn the_same_seed_and_iterations_give_the_same_plan() {
+    let drawn = voltour(&["generate", "reward", "--sensors", "60", "--seed", "5"], "");
+    let scenario = text(&drawn.stdout);
+    let solve = || {
+        let output = voltour(&["solve", "-", "--iterations", "200", "--seed", "3"], scenario);
+        let mut plan = json(&output.stdout);
+        assert!(plan.as_object_mut().unwrap().remove("elapsed_s").is_some());
+        plan
+    };
+    assert_eq!(solve(), solve());
+}
+
+#[test]
+fn no_feasible_tour_is_exit_code_one_with_a_plan() {
+    let late = SMALL.replace("5400", "1").replace("\"required\": false", "\"required\": true");
+    let output = voltour(&["solve", "-", "--iterations", "10"], &late);
+    assert_eq!(code(&output), 1);
+    let plan = json(&output.stdout);
+    assert!(["best_effort", "infeasible"].contains(&plan["status"].as_str().unwrap()));
+    assert_eq!(plan["violations"][0]["kind"], "required");
+}
+
+#[test]
+fn bad_documents_are_one_line() {
+    let cases = [
+        (SMALL.replace("\"drain_w\": 0.3", "\"drain_w\": -1"), "requests[0].drain_w"),
+        (SMALL.replace("\"charge_level\"", "\"charge\\nlevel\""), "unknown field"),
+        (SMALL.replace("\"name\"", "\"format\""), "format"),
+        (SMALL.replace("10800}", "1e999}"), "line"),
+        ("{".to_owned(), "line 1"),
+        (String::new(), "line 1"),
+        ("[".repeat(100_000), "line 1"),
+        ("\u{feff}{}".to_owned(), "line 1"),
+    ];
+    for (document, expected) in cases {
+        for command in ["solve", "check"] {
+            let mut arguments = vec![command, "-"];
+            if command == "check" {
+                arguments.push("/nowhere/plan.json");
+            }
+            let line = refused(&voltour(&arguments, &document));
+            assert!(line.contains(expected), "{line}");
+        }
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let scenario = file(folder.path(), "scenario.json", SMALL);
+    let line = refused(&voltour(&["check", &scenario, "-"], "{\"format\": \"voltour/plan/2\"}"));
+    assert!(line.contains("standard input: "), "{line}");
+}
+
+#[test]
+fn bad_arguments_are_one_line() {
+    let line = refused(&voltour(&["solve", "-", "--solver", "magic"], SMALL));
+    assert!(line.contains("unknown solver \"magic\"") && line.contains("baseline"), "{line}");
+    let line = refused(&voltour(&["solve", "-", "--model", "policy.onnx"], SMALL));
+    assert!(line.contains("--model"), "{line}");
+    assert!(refused(&voltour(&["solve", "/nowhere.json"], "")).contains("/nowhere.json"));
+    assert!(refused(&voltour(&["check", "-", "-"], SMALL)).contains("standard input"));
+    let line = refused(&voltour(&["generate", "reward", "--seed", "1", "--side-m", "-1"], ""));
+    assert!(line.contains("--side-m: -1"), "{line}");
+    for arguments in [
+        &["solve"][..],
+        &["solve", "-", "--time-limit", "-1s"],
+        &["solve", "-", "--iterations", "x"],
+        &["generate", "reward"],
+        &["generate", "nothing", "--seed", "1"],
+    ] {
+        let output = voltour(arguments, SMALL);
+        assert_eq!(code(&output), 2, "{arguments:?}");
+        assert!(output.stdout.is_empty() && !output.stderr.is_empty());
+    }
+}
+
+#[test]
+fn every_preset_is_drawn_solved_checked_and_pictured() {
+    let folder = tempfile::tempdir().unwrap();
+    for preset in ["k_coverage", "reward", "mobile"] {
+        let path = |end: &str| folder.path().join(format!("{preset}.{end}"));
+        let [scenario, plan, svg] =
+            ["json", "plan", "svg"].map(|end| path(end).to_str().unwrap().to_owned());
+        let output = voltour(&["generate", preset, "--seed", "1", "-o", &scenario], "");
+        assert_eq!((code(&output), output.stdout.len()), (0, 0), "{}", text(&output.stderr));
+        let solve = ["solve", &scenario, "--iterations", "50", "-o", &plan, "--svg", &svg];
+        let output = voltour(&solve, "");
+        assert!(code(&output) <= 1 && output.stdout.is_empty(), "{}", text(&output.stderr));
+        let output = voltour(&["check", &scenario, &plan], "");
+        assert_eq!(code(&output), 0, "{preset}: {}", text(&output.stdout));
+        assert!(fs::read_to_string(&svg).unwrap().starts_with("<svg"));
+    }
+}
+
+#[test]
+fn a_drawing_repeats() {
+    let draw = |seed: &str| voltour(&["generate", "mobile", "--seed", seed], "").stdout;
+    assert_eq!(draw("7"), draw("7"));
+    assert_ne!(draw("7"), draw("8"));
+}
+
+#[test]
+fn a_reader_that_goes_away_is_no_failure() {
+    let mut child = Command::new(env!("CARGO_BIN_EXE_voltour"))
+        .args(["generate", "reward", "--sensors", "5000", "--seed", "1"])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    drop(child.stdout.take());
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(code(&output), 0);
+    assert!(output.stderr.is_empty(), "{}", text(&output.stderr));
+}
+
+#[test]
+fn what_cannot_be_written_is_said() {
+    let output = voltour(&["solve", "-", "--iterations", "1", "-o", "/nowhere/plan.json"], SMALL);
+    assert!(refused(&output).contains("/nowhere/plan.json"));
+}
