@@ -18,3 +18,6 @@ pub mod wire;
 pub use edge::{Edge, Limits};
 pub use server::{Server, ServerError};
 pub use status::violations;
+
+#[cfg(test)]
+mod tests;

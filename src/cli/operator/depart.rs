@@ -37,10 +37,10 @@ pub struct Args {
     #[arg(long, value_name = "X,Y", allow_hyphen_values = true)]
     pub end: Option<Point>,
     /// Bound on energy delivered plus energy travelled; as its type says if left out
-    #[arg(long, value_name = "JOULES")]
+    #[arg(long, value_name = "JOULES", allow_negative_numbers = true)]
     pub capacity_j: Option<f64>,
     /// Bound on the time until it is back; as its type says if left out
-    #[arg(long, value_name = "SECONDS")]
+    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
     pub timespan_s: Option<f64>,
     #[command(flatten)]
     caller: Caller,

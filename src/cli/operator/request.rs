@@ -54,16 +54,16 @@ pub struct Submit {
     #[arg(long, value_name = "TIME")]
     pub ready: Option<Timestamp>,
     /// Energy left in its battery
-    #[arg(long, value_name = "JOULES")]
+    #[arg(long, value_name = "JOULES", allow_negative_numbers = true)]
     pub residual_j: Option<f64>,
     /// When that was measured (RFC 3339); now if left out
     #[arg(long, value_name = "TIME")]
     pub measured_at: Option<Timestamp>,
     /// Its consumption; as registered if left out
-    #[arg(long, value_name = "WATTS")]
+    #[arg(long, value_name = "WATTS", allow_negative_numbers = true)]
     pub drain_w: Option<f64>,
     /// What serving it is worth; the energy needed if left out
-    #[arg(long)]
+    #[arg(long, allow_negative_numbers = true)]
     pub reward: Option<f64>,
     /// The tour must serve it
     #[arg(long)]
