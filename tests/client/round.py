@@ -222,13 +222,13 @@ def fetch(address):
 
 def history(tour, rest, results):
     """The operator's view of the same round."""
-    plans = fetch(f"{rest}/v1/plans?network_id=field")["items"]
+    plans = fetch(f"{rest}/v1/plans?network=field")["items"]
     results.check("the plan is in the history", [plan["id"] for plan in plans] == [tour.plan_id], plans)
     envelope = fetch(f"{rest}/v1/plans/{tour.plan_id}")
     stops = [stop["sensor"] for stop in envelope["plan"]["stops"]]
     results.check("with the stops that the charger got",
                   stops == [stop.sensor_id for stop in tour.stops], stops)
-    served = fetch(f"{rest}/v1/requests?network_id=field&state=served")["items"]
+    served = fetch(f"{rest}/v1/requests?network=field&state=served")["items"]
     results.check("and the request that was served", [r["sensor_id"] for r in served] == ["s1"], served)
     try:
         fetch(f"{rest}/v1/plans/nothing")

@@ -2,10 +2,10 @@
 
 use jiff::Timestamp;
 use serde_json::Value;
-use voltour::proto::{ReportVisitRequest, SubmitRequest, VisitOutcome};
+use voltour::proto::SubmitRequest;
 
 use crate::app::TestApp;
-use crate::field::{FIELD, line, request, visit};
+use crate::field::{FIELD, line, request};
 use crate::time::{from_now, us};
 
 /// An RFC 3339 time in UTC, in microseconds since the epoch.
@@ -63,19 +63,13 @@ async fn of_a_request_in_every_part() {
 }
 
 #[tokio::test]
-async fn of_a_departure_its_tour_and_its_plan() {
+async fn of_a_departure_and_its_plan() {
     let app = TestApp::start().await;
     app.put(line(3)).await;
     for sensor in ["s1", "s3"] {
         app.ask(sensor).await;
     }
     let tour = app.drive("A").await;
-    let skipped = ReportVisitRequest {
-        note: "a gate".into(),
-        ..visit(&tour.id, "s3", VisitOutcome::Skipped)
-    };
-    app.tours().report_visit(skipped).await.unwrap();
-
     let departure = app.departure(&tour.departure_id).await;
     let read = app.json(&format!("/v1/departures/{}", departure.id)).await;
     assert_eq!((&read["state"], &read["batch_size"]), (&"planned".into(), &2.into()));
@@ -90,30 +84,35 @@ async fn of_a_departure_its_tour_and_its_plan() {
         assert_eq!(micros(&read[member]), us(time), "{member}");
     }
 
-    let read = app.json(&format!("/v1/tours/{}", tour.id)).await;
-    assert_eq!((&read["state"], &read["charger_id"]), (&"out".into(), &"A".into()));
-    assert_eq!(
-        (micros(&read["start"]), micros(&read["finish"])),
-        (us(&tour.start), us(&tour.finish))
-    );
-    assert_eq!(read["distance_m"], tour.distance_m);
-    let stops = read["stops"].as_array().unwrap();
-    assert_eq!(stops.len(), tour.stops.len());
-    for (read, stop) in stops.iter().zip(&tour.stops) {
-        assert_eq!(read["sensor_id"], stop.sensor_id.as_str());
-        assert_eq!(read["request_id"], stop.request_id.as_str());
-        assert_eq!(micros(&read["arrive"]), us(&stop.arrive));
-        assert_eq!(read["charge_j"], stop.charge_j);
-        let outcome = (stop.sensor_id == "s3").then_some("skipped");
-        assert_eq!(read["outcome"].as_str(), outcome);
-    }
-
     let envelope = app.json(&format!("/v1/plans/{}", tour.plan_id)).await;
     let mut members: Vec<_> = envelope.as_object().unwrap().keys().collect();
     members.sort();
     assert_eq!(members, ["plan", "provenance"], "an envelope and no more");
     assert_eq!(envelope["plan"]["objective"], tour.objective);
     assert_eq!(envelope["plan"]["solver"], tour.solver.as_str());
+    let stops = envelope["plan"]["stops"].as_array().unwrap();
+    assert_eq!(stops.len(), tour.stops.len());
+    for (read, stop) in stops.iter().zip(&tour.stops) {
+        assert_eq!(read["sensor"], stop.sensor_id.as_str());
+        assert_eq!(read["charge_j"], stop.charge_j);
+        // Seconds after the start, the same to the microsecond.
+        let arrive = read["arrive_s"].as_f64().unwrap() * 1e6;
+        assert!((arrive - (us(&stop.arrive) - us(&tour.start)) as f64).abs() <= 1.0);
+    }
+    let summary = app.json("/v1/plans").await["items"][0].take();
+    assert_eq!(
+        (&summary["id"], &summary["departure_id"]),
+        (&tour.plan_id.as_str().into(), &departure.id.as_str().into())
+    );
+    assert_eq!((&summary["stops"], &summary["unserved"]), (&2.into(), &0.into()));
+    assert_eq!(
+        (&summary["solver"], &summary["objective"]),
+        (&tour.solver.as_str().into(), &tour.objective.into())
+    );
+    assert_eq!(
+        (micros(&summary["start"]), micros(&summary["finish"])),
+        (us(&tour.start), us(&tour.finish))
+    );
     assert_eq!(micros(&envelope["provenance"]["start"]), us(&tour.start));
     let batch = envelope["provenance"]["batch"].as_array().unwrap();
     assert_eq!(batch.len(), 2);

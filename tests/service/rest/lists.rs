@@ -14,7 +14,8 @@ async fn requests_page_by_page_while_more_come_in() {
     }
     before.reverse();
     let mut number = 24;
-    let found = walk(&app, &format!("/v1/requests?network={FIELD}"), 3, async || {
+    let path = format!("/v1/requests?network={FIELD}");
+    let found = walk(&app, &path, 3, async || {
         app.ask(&sensor(number).id).await;
         app.withdraw(&before[before.len() - (number - 23)]).await;
         number += 1;
