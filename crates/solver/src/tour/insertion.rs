@@ -93,7 +93,8 @@ impl Tour {
     fn detour_m(&self, instance: &Instance<'_>, position: usize, candidate: u32) -> f64 {
         let (from, to) = (self.place_before(instance, position), self.place(instance, position));
         let via = candidate as usize;
-        instance.distance_m(from, via) + instance.distance_m(via, to) - instance.distance_m(from, to)
+        instance.distance_m(from, via) + instance.distance_m(via, to)
+            - instance.distance_m(from, to)
     }
 
     /// Metres, seconds and joules more, where totals decide.
@@ -109,7 +110,8 @@ impl Tour {
         let seconds = metres / charger.speed_mps + joules / charger.transfer_w;
         let now = self.finished();
         let energy_j = instance.energy_j(now) + charger.travel_jpm * metres + joules;
-        let legal = now.arrive_s + seconds <= instance.timespan_s && energy_j <= instance.capacity_j;
+        let legal =
+            now.arrive_s + seconds <= instance.timespan_s && energy_j <= instance.capacity_j;
         legal.then_some((metres, seconds, joules))
     }
 

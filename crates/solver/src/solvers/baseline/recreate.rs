@@ -8,8 +8,8 @@ use rand::seq::SliceRandom;
 use rand_pcg::Pcg64Mcg;
 
 use super::cost::Cost;
-use crate::local_search::Neighbours;
 use crate::instance::Instance;
+use crate::local_search::Neighbours;
 use crate::solvers::grow::{Rule, grow};
 use crate::solvers::partial::{Partial, gain};
 use crate::tour::Insertion;
