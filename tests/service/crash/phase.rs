@@ -7,8 +7,8 @@ use std::fs;
 use std::path::Path;
 
 use super::aim::Aim;
-use crate::database::{open_copy, rows};
 use super::station::Station;
+use crate::database::{open_copy, rows};
 use crate::time::now_us;
 
 /// How often each was struck; a kill may strike several at once.

@@ -7,9 +7,9 @@ use tonic::Request;
 use voltour::proto::{ChargingRequest, GetNextRequest, ListRequestsRequest, Tour};
 
 use super::charger::Charger;
-use crate::database::{open, rows};
 use super::station::Station;
 use crate::app::{PATIENCE, TestApp};
+use crate::database::{open, rows};
 use crate::field::FIELD;
 
 pub async fn acknowledged(app: &TestApp, station: &Station, chargers: &[Charger]) {
