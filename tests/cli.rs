@@ -1,5 +1,6 @@
 //! The commands `solve`, `check` and `generate` of the real binary: exit codes, what goes where,
 //! standard input, bad documents.
+#![allow(clippy::unwrap_used, reason = "a test fails by it")]
 
 use std::fs;
 use std::io::Write;

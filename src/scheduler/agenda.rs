@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use jiff::Timestamp;
 use tokio::sync::Notify;
-use tokio::task::JoinSet;
+use tokio::task::{Id, JoinError, JoinSet};
 
 use super::departing::{Departing, Stuck};
 use crate::clock::{minus, plus};
@@ -24,7 +24,9 @@ pub(super) struct Agenda {
     pub wake: Arc<Notify>,
     /// Networks of which a departure is under way; or that wait until a time after one got stuck.
     pub busy: HashMap<NetworkId, Option<Timestamp>>,
-    pub under_way: JoinSet<(NetworkId, DepartureId, Result<(), Stuck>)>,
+    pub under_way: JoinSet<Result<(), Stuck>>,
+    /// Whose task is which.
+    pub tasks: HashMap<Id, (NetworkId, DepartureId)>,
 }
 
 impl Agenda {
@@ -40,7 +42,7 @@ impl Agenda {
             };
             self.sleep(next).await;
         }
-        while let Some(ended) = self.under_way.join_next().await {
+        while let Some(ended) = self.under_way.join_next_with_id().await {
             self.ended(ended);
         }
     }
@@ -99,7 +101,8 @@ impl Agenda {
         let (network, id) = (departure.network_id.clone(), departure.id);
         self.busy.insert(network.clone(), None);
         let departing = self.departing.clone();
-        self.under_way.spawn(async move { (network, id, departing.depart(id).await) });
+        let task = self.under_way.spawn(async move { departing.depart(id).await });
+        self.tasks.insert(task.id(), (network, id));
     }
 
     async fn sleep(&mut self, next: Option<Timestamp>) {
@@ -114,31 +117,26 @@ impl Agenda {
         tokio::select! {
             () = cancel.cancelled() => {}
             () = self.wake.notified() => {}
-            Some(ended) = self.under_way.join_next() => self.ended(ended),
+            Some(ended) = self.under_way.join_next_with_id() => self.ended(ended),
             () = due => {}
         }
     }
 
-    fn ended(
-        &mut self,
-        ended: Result<(NetworkId, DepartureId, Result<(), Stuck>), tokio::task::JoinError>,
-    ) {
-        let until = plus(self.departing.clock.now(), PAUSE);
-        match ended {
-            Ok((network, _, Ok(()))) => {
+    fn ended(&mut self, ended: Result<(Id, Result<(), Stuck>), JoinError>) {
+        let (task, trouble) = match ended {
+            Ok((task, Ok(()))) => (task, None),
+            Ok((task, Err(error))) => (task, Some(error)),
+            Err(error) => (error.id(), Some(Stuck::Thread(error))),
+        };
+        let Some((network, departure)) = self.tasks.remove(&task) else { return };
+        match trouble {
+            None => {
                 self.busy.remove(&network);
             }
-            Ok((network, departure, Err(error))) => {
+            Some(error) => {
                 tracing::error!(%network, %departure, %error, "a departure is stuck, trying again");
+                let until = plus(self.departing.clock.now(), PAUSE);
                 self.busy.insert(network, Some(until));
-            }
-            Err(error) => {
-                tracing::error!(%error, "a departure's task failed");
-                // Which one is not known: those that run will report, the others are looked at again.
-                let running = self.under_way.len();
-                if running == 0 {
-                    self.busy.clear();
-                }
             }
         }
     }

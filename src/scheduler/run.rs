@@ -49,8 +49,8 @@ pub async fn start(
     let handle = Handle::new(writer.clone(), reads.clone(), settings.lead, wake.clone());
     let planners = Arc::new(Semaphore::new(settings.planner_threads.clamp(1, 256)));
     let departing = Departing { writer, clock, settings, planners, cancel: cancel.clone() };
-    let (busy, under_way) = (HashMap::new(), JoinSet::new());
-    let agenda = Agenda { reads, departing, wake, busy, under_way };
+    let (busy, under_way, tasks) = (HashMap::new(), JoinSet::new(), HashMap::new());
+    let agenda = Agenda { reads, departing, wake, busy, under_way, tasks };
     let task = tokio::spawn(async move {
         let agenda = agenda.run();
         tokio::pin!(agenda);

@@ -108,6 +108,17 @@ impl Bench {
         Self { dir, clock, store, calls }
     }
 
+    /// The writer ends in the middle of its work; then the service starts again.
+    pub async fn crashed(self) -> Self {
+        let Self { dir, clock, store, calls } = self;
+        let Store { task, .. } = store;
+        task.ended.abort();
+        // Its end is the abortion.
+        let _ = task.ended.await;
+        let store = Store::open(&dir.path().join("db"), clock.clone()).await.unwrap();
+        Self { dir, clock, store, calls }
+    }
+
     /// To start a scheduler on.
     pub fn parts(self) -> (TempDir, Arc<ManualClock>, Store) {
         (self.dir, self.clock, self.store)

@@ -26,6 +26,9 @@ pub(super) struct Networks {
 struct Known {
     present: KnownNetwork,
     dead: HashSet<SensorId>,
+    /// Sensors that have got a request since the last close: a hint, to spare the attempt that the
+    /// unique index would refuse.
+    opened: HashSet<SensorId>,
 }
 
 impl Networks {
@@ -38,6 +41,27 @@ impl Networks {
     pub fn forget_one(&mut self, id: &NetworkId) {
         if let Some(known) = self.known.remove(id) {
             self.sensors = self.sensors.saturating_sub(known.present.spec.sensors.len());
+        }
+    }
+
+    /// Takes note of an open request.
+    pub fn opened(&mut self, id: &NetworkId, sensor: &SensorId) {
+        if let Some(known) = self.known.get_mut(id)
+            && !known.opened.contains(sensor)
+        {
+            known.opened.insert(sensor.clone());
+        }
+    }
+
+    /// Whether a sensor may have an open request; where it is not known, the database knows.
+    pub fn perhaps_open(&self, id: &NetworkId, sensor: &SensorId) -> bool {
+        self.known.get(id).is_some_and(|known| known.opened.contains(sensor))
+    }
+
+    /// Takes note of a close: few requests are open now.
+    pub fn closed(&mut self, id: &NetworkId) {
+        if let Some(known) = self.known.get_mut(id) {
+            known.opened.clear();
         }
     }
 
@@ -80,7 +104,8 @@ impl Writing {
             self.networks.forget();
             self.networks.sensors = present.spec.sensors.len();
         }
-        self.networks.known.insert(id.clone(), Known { present: present.clone(), dead });
+        let known = Known { present: present.clone(), dead, opened: HashSet::new() };
+        self.networks.known.insert(id.clone(), known);
         Ok(Some(present))
     }
 

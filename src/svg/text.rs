@@ -37,7 +37,7 @@ pub(super) fn width(text: &str, size: f64) -> f64 {
 /// in scientific notation.
 pub(super) fn number(value: f64, decimals: usize) -> String {
     let size = value.abs();
-    if value != 0.0 && (size >= 1e9 || size < 1e-6) {
+    if value != 0.0 && !(1e-6..1e9).contains(&size) {
         return format!("{value:.2e}");
     }
     let text = format!("{value:.decimals$}");

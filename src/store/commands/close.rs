@@ -101,6 +101,7 @@ impl CloseBatch {
         .execute(&mut w.conn)
         .await?;
         w.took_changes(done.rows_affected());
+        w.networks.closed(&network.id);
         w.tours_moved = true;
         Ok(())
     }

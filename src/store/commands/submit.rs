@@ -73,18 +73,20 @@ impl Submit {
         Ok(rows == 1)
     }
 
-    /// A newer request takes the place of an open one.
+    /// A newer request takes the place of an open one; not so a call that came before.
     async fn supersede(&self, w: &mut Writing) -> Result<(), Failure> {
         let asked = &self.call.content;
         let (now_us, change) = (w.now_us(), w.coming_change());
         let done = sqlx::query(
-            "UPDATE requests SET state = 'superseded', updated_us = ?, change = ? \
-             WHERE network_id = ? AND sensor_id = ? AND state = 'open'",
+            "UPDATE requests SET state = 'superseded', updated_us = ?1, change = ?2 \
+             WHERE network_id = ?3 AND sensor_id = ?4 AND state = 'open' AND NOT EXISTS \
+             (SELECT 1 FROM requests c WHERE c.network_id = ?3 AND c.client_id = ?5)",
         )
         .bind(now_us)
         .bind(change)
         .bind(asked.network_id.as_str())
         .bind(asked.sensor_id.as_str())
+        .bind(self.call.client_id.as_str())
         .execute(&mut w.conn)
         .await?;
         w.took_changes(done.rows_affected());
@@ -125,6 +127,9 @@ impl Command for Submit {
             return self.before(w).await?.ok_or(Failure::Refused(refusal));
         }
         let mut request = self.request(w);
+        if w.networks.perhaps_open(&asked.network_id, &asked.sensor_id) {
+            self.supersede(w).await?;
+        }
         if !self.insert(w, &mut request).await? {
             if let Some(before) = self.before(w).await? {
                 return Ok(before);
@@ -135,6 +140,7 @@ impl Command for Submit {
                 return Err(Refusal::Internal(reason).into());
             }
         }
+        w.networks.opened(&asked.network_id, &asked.sensor_id);
         w.revive(&asked.network_id, &asked.sensor_id).await?;
         Ok(request)
     }

@@ -121,3 +121,30 @@ async fn at_the_end_the_queue_is_still_done() {
     let late = writer.call(Dawdle).await;
     assert!(matches!(late, Err(Refusal::Unavailable(_))), "{late:?}");
 }
+
+/// What a crash leaves behind: the writer is gone in the middle of its work, nobody has said goodbye.
+#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+async fn what_was_acknowledged_outlives_the_writer() {
+    let mut bench = Bench::new().await;
+    let mut acknowledged = Vec::new();
+    for round in 0..8u64 {
+        let mut calls = tokio::task::JoinSet::new();
+        for i in 0..200 {
+            let writer = bench.store.writer.clone();
+            let submit = Submit::new(call(&format!("{round}-{i}"), asks(&format!("s{}", i % 5))));
+            calls.spawn(async move { writer.call(submit).await });
+        }
+        tokio::time::sleep(Duration::from_millis(2 + 3 * round)).await;
+        bench = bench.crashed().await;
+        while let Some(answer) = calls.join_next().await {
+            acknowledged.extend(answer.unwrap().ok());
+        }
+        for request in &acknowledged {
+            let stored = bench.store.reads.request(request.id).await.unwrap().unwrap();
+            assert_eq!(stored.client_id, request.client_id);
+        }
+        let (live, _) = bench.store.reads.live_requests(&"net".parse().unwrap()).await.unwrap();
+        assert!(live.len() <= 5, "one open request a sensor");
+    }
+    assert!(!acknowledged.is_empty());
+}

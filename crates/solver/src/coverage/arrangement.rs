@@ -33,9 +33,8 @@ pub fn regions(scenario: &Scenario) -> Vec<Region> {
         let circle = circle(&curves, i);
         for &j in near.disks.iter().filter(|&&j| j > i) {
             let other = &around[j as usize];
-            let tolerance = near.tolerance.max(other.tolerance);
             let disk = if other.disks.len() < near.disks.len() { j } else { i };
-            for vertex in circle_circle(circle, self::circle(&curves, j), tolerance) {
+            for vertex in circle_circle(circle, self::circle(&curves, j)) {
                 vertices.visit(&curves, &around, vertex, disk);
             }
         }

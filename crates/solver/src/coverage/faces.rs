@@ -8,7 +8,7 @@ use nalgebra::Vector2;
 use super::Region;
 use super::disks::Curves;
 use super::sectors::Sectors;
-use super::sets::Sets;
+use super::sets::{Sets, hash};
 use super::surroundings::Surroundings;
 use crate::scenario::Point;
 
@@ -59,15 +59,18 @@ impl Faces {
     /// the touching ones.
     pub(super) fn claim(&mut self, vertex: Point, disk: u32, sectors: &Sectors) {
         let mut sets = [NONE; 4];
+        let base = hash(&sectors.covering);
         for (choice, claimed) in sets.iter_mut().enumerate().take(1 << sectors.touching.len()) {
-            let chosen = (0..).zip(&sectors.touching).filter(|(bit, _)| choice >> bit & 1 == 1);
-            self.set.clear();
-            self.set.extend_from_slice(&sectors.covering);
-            for (_, &disk) in chosen {
-                let at = self.set.partition_point(|&other| other < disk);
-                self.set.insert(at, disk);
+            self.set.clone_from(&sectors.covering);
+            let mut key = base;
+            for (bit, disk) in sectors.touching.iter().enumerate() {
+                if choice >> bit & 1 == 1 {
+                    let at = self.set.partition_point(|other| other < disk);
+                    self.set.insert(at, *disk);
+                    key = key.wrapping_add(hash(&[*disk]));
+                }
             }
-            let id = self.sets.intern(&self.set);
+            let id = self.sets.intern_hashed(&self.set, key);
             let face = self.face(id);
             face.vertices += vertex.coords;
             face.count += 1;

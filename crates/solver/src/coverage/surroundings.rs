@@ -13,7 +13,7 @@ const DRIFT: f64 = 1e-14;
 /// below the 1e-9 m of the format, so that no face that counts is merged away.
 const LEAST_TOLERANCE: f64 = 1e-11;
 /// How far the surroundings of a disk reach past it, relative to its range.
-const REACH: f64 = 0.1;
+const REACH: f64 = 0.04;
 
 /// The curves that may lie within `reach` of a part of the plane.
 pub(super) struct Surroundings {
@@ -75,6 +75,19 @@ impl Surroundings {
         }));
     }
 
+    /// Writes the disks that cover a point with these offsets.
+    pub(super) fn covering(&self, offsets: &[f64], set: &mut Vec<u32>) {
+        // Every disk is written, the ones outside to be overwritten: a branch that nobody can
+        // predict would cost more.
+        set.resize(self.disks.len() + 1, 0);
+        let mut len = 0;
+        for (&offset, &disk) in offsets.iter().zip(&self.disks) {
+            set[len] = disk;
+            len += usize::from(offset <= 0.0);
+        }
+        set.truncate(len);
+    }
+
     /// Within it, the offset of a vertex from the `i`-th disk cannot be told from zero.
     pub(super) fn tolerance_of(&self, i: usize) -> f64 {
         self.tolerance.max(DRIFT * self.range[i])
@@ -96,16 +109,13 @@ impl Surroundings {
     ) -> Option<f64> {
         self.offsets(point, offsets);
         let mut depth = self.reach;
-        set.clear();
-        for ((&offset, &disk), &range) in offsets.iter().zip(&self.disks).zip(&self.range) {
+        for (&offset, &range) in offsets.iter().zip(&self.range) {
             if offset.abs() <= ROUNDING * range {
                 return None;
             }
             depth = depth.min(offset.abs());
-            if offset <= 0.0 {
-                set.push(disk);
-            }
         }
+        self.covering(offsets, set);
         for edge in &self.edges {
             depth = depth.min(edge.distance(point));
         }

@@ -28,7 +28,11 @@ pub fn descend(
             let beside = [at.checked_sub(1), Some(at + 1)].into_iter().flatten();
             Some(beside.filter_map(|p| tour.order().get(p).copied()).collect::<Vec<u32>>())
         };
+        let reach = reach(instance, tour, candidate);
         for other in served {
+            if instance.symmetric && near_m(instance, candidate, other) >= reach {
+                break;
+            }
             let beside = ends(tour).unwrap_or_default();
             if two_opt(instance, tour, candidate, other) || or_opt(instance, tour, candidate, other)
             {
@@ -44,4 +48,20 @@ pub fn descend(
         }
     }
     made > 0
+}
+
+/// The longer of the two edges at a stop. A new edge that is no shorter gains nothing that an
+/// exchange seen from the other side would not (Bentley's neighbour list rule, 1992).
+fn reach(instance: &Instance<'_>, tour: &Tour, candidate: u32) -> f64 {
+    let Some(at) = tour.position(candidate) else { return 0.0 };
+    if instance.moving {
+        return f64::INFINITY;
+    }
+    let (before, after) = (tour.place_before(instance, at), tour.place(instance, at + 1));
+    let here = candidate as usize;
+    instance.distance_m(before, here).max(instance.distance_m(here, after))
+}
+
+fn near_m(instance: &Instance<'_>, a: u32, b: u32) -> f64 {
+    if instance.moving { 0.0 } else { instance.distance_m(a as usize, b as usize) }
 }

@@ -59,15 +59,6 @@ impl Partial {
         self.tour.remove(instance, leaves);
     }
 
-    /// Replaces the tour.
-    pub fn replace(&mut self, instance: &Instance<'_>, order: &[u32]) {
-        self.tour.replace(instance, order);
-        self.has.fill(0);
-        for &candidate in order {
-            self.count(instance, candidate, true);
-        }
-    }
-
     /// What demand `d` lacks.
     pub fn lacks(&self, instance: &Instance<'_>, d: usize) -> u32 {
         instance.demands.demands[d].needs.saturating_sub(self.has[d])

@@ -123,7 +123,7 @@ fn four_circles_through_one_point_tangent_in_pairs() {
 }
 
 #[test]
-fn region_whose_vertices_are_all_tangencies() {
+fn ring_of_touching_disks_around_a_star() {
     // Four disks touch in a ring inside a fifth that contains them; a sixth fills the star between
     // them and passes through their four tangent points.
     let ring = [[7.0, 7.0, 3.0], [13.0, 7.0, 3.0], [13.0, 13.0, 3.0], [7.0, 13.0, 3.0]];
@@ -170,6 +170,40 @@ fn thin_lens_and_small_triangle_are_found() {
     let triangle = World::square(20.0, &disks);
     let sets = cover(&[&[], &[0], &[1], &[2], &[0, 1], &[0, 2], &[1, 2], &[0, 1, 2]]);
     assert_eq!(triangle.sets(), sets);
+}
+
+#[test]
+fn nearly_coincident_circles_leave_long_slivers() {
+    // Seen from afar, each direction ranks the three by how far they are shifted that way.
+    let sets = cover(&[&[], &[0], &[1], &[2], &[0, 1], &[0, 2], &[1, 2], &[0, 1, 2]]);
+    for shift in [1.0, 1e-2, 1e-4, 1e-6, 1e-8, 1e-9] {
+        let disks = [90_f64, 210.0, 330.0].map(|degrees| {
+            let (sin, cos) = degrees.to_radians().sin_cos();
+            [250.0 + shift * cos, 250.0 + shift * sin, 100.0]
+        });
+        assert_eq!(World::square(500.0, &disks).sets(), sets, "shifted by {shift}");
+    }
+}
+
+#[test]
+fn flower_whose_petals_end_where_many_circles_meet() {
+    // Six circles around a seventh, all through its centre: in it every vertex is of three or six.
+    let petal = |k: u32| {
+        let (sin, cos) = f64::from(60 * k).to_radians().sin_cos();
+        [10.0 + 4.0 * cos, 10.0 + 4.0 * sin, 4.0]
+    };
+    let mut disks: Vec<_> = (0..6).map(petal).collect();
+    disks.push([10.0, 10.0, 4.0]);
+    let set = |members: &[u32]| {
+        let mut set: Vec<_> = members.iter().map(|&k| if k == 9 { 6 } else { k % 6 }).collect();
+        set.sort_unstable();
+        set
+    };
+    let mut sets = cover(&[&[]]);
+    for k in 0..6 {
+        sets.extend([set(&[k]), set(&[k, k + 1]), set(&[k, k + 1, 9]), set(&[k, k + 1, k + 2, 9])]);
+    }
+    assert_eq!(World::square(20.0, &disks).sets(), sets);
 }
 
 #[test]

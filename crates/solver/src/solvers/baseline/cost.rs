@@ -10,7 +10,7 @@ const FIRST_WEIGHT: f64 = 3.0;
 /// And ends at so many times its first weight.
 const LAST_WEIGHT: f64 = 1e4;
 /// What the effort of a mean stop counts beside the gain of a mean candidate.
-const EFFORT_SHARE: f64 = 0.1;
+const EFFORT_SHARE: f64 = 0.5;
 
 /// Cost = effort - gain + weighted misses, each in the unit of the objective.
 pub struct Cost {

@@ -14,6 +14,8 @@ use crate::tour::Tour;
 
 /// Most stops that leave at once.
 const MOST: usize = 16;
+/// From tours of up to so many stops, all may leave.
+const SMALL: usize = 6;
 /// Longest string.
 const STRING: usize = 10;
 
@@ -29,7 +31,7 @@ pub fn ruin(
     if stops == 0 {
         return Vec::new();
     }
-    let most = (stops * 2 / 5).clamp(2.min(stops), MOST);
+    let most = (stops * 2 / 5).clamp(SMALL.min(stops), MOST);
     let count = rng.random_range(1..=most);
     let mut removed = Vec::with_capacity(count);
     let mut leave = |candidate: u32, removed: &mut Vec<u32>| {

@@ -15,10 +15,10 @@ use crate::solvers::{Budget, SolverName, enumerate, greedy, shortcut};
 use crate::tour::Value;
 
 /// Temperature at the beginning and the end of an annealing run, in scales of the cost.
-const HOT: f64 = 0.3;
-const COLD: f64 = 0.003;
+const HEAT_OF_DISTANCE: (f64, f64) = (0.3, 0.003);
+const HEAT_OF_GAIN: (f64, f64) = (3.0, 0.01);
 /// Iterations of the first annealing run.
-const FIRST_RUN: u64 = 1000;
+const FIRST_RUN: u64 = 2000;
 /// Pools beyond this size are cut down to the neighbourhood of what left.
 const WIDE_POOL: usize = 100;
 /// Tours longer than this are improved by local search in every iteration.
@@ -94,6 +94,10 @@ impl<'a, 'b> Search<'a, 'b> {
         if self.useful.is_empty() || budget.is_spent() {
             return;
         }
+        let (hot, cold) = match self.instance.scenario.objective {
+            Objective::MinDistance => HEAT_OF_DISTANCE,
+            Objective::MaxReward | Objective::MaxCount => HEAT_OF_GAIN,
+        };
         let mut length = FIRST_RUN;
         let mut improved = budget.iterations();
         loop {
@@ -102,7 +106,7 @@ impl<'a, 'b> Search<'a, 'b> {
             let mut current_cost = self.cost.of(self.instance, &current);
             for i in 0..length {
                 let share = i as f64 / length as f64;
-                let heat = self.cost.scale * HOT * (COLD / HOT).powf(share);
+                let heat = self.cost.scale * hot * (cold / hot).powf(share);
                 trial.clone_from(&current);
                 self.change(&mut trial);
                 let trial_cost = self.cost.of(self.instance, &trial);
