@@ -3,9 +3,9 @@
 
 use tonic::{Code, Status};
 use voltour::proto::{
-    AnnounceRequest, CancelDepartureRequest, CompleteRequest, PutNetworkRequest, ReportVisitRequest,
-    SensorTrajectory, SubmitRequest, Trajectory, UpdateTrajectoryRequest, VisitOutcome, Waypoint,
-    WithdrawRequest,
+    AnnounceRequest, CancelDepartureRequest, CompleteRequest, PutNetworkRequest,
+    ReportVisitRequest, SensorTrajectory, SubmitRequest, Trajectory, UpdateTrajectoryRequest,
+    VisitOutcome, Waypoint, WithdrawRequest,
 };
 
 use crate::app::TestApp;
