@@ -13,7 +13,7 @@ use crate::domain::{Call, CancelDeparture, ClientId, DepartureId, Refusal};
 use crate::planner::{self, Contest, PlanError};
 use crate::store::{Batch, Cancel, CloseBatch, Closing, StorePlan, Storing, Writer};
 
-/// What is left of the time before second 0 for storing the plan.
+/// What is left of the time before second 0 for storing the plan, where the lead has so much to spare.
 const TO_STORE: Duration = Duration::from_millis(500);
 
 /// What a departure needs on its way.
@@ -92,11 +92,13 @@ impl Departing {
     }
 
     async fn plan(&self, batch: Batch, budget: Duration) -> Result<crate::store::NewPlan, Stuck> {
+        // A lead that is hardly longer than the budget must not end the search before it begins.
+        let spare = self.settings.lead.saturating_sub(self.settings.budget);
         let contest = Contest {
             solver: self.settings.solver,
             seed: self.settings.seed,
             budget,
-            latest: minus(batch.start, TO_STORE),
+            latest: minus(batch.start, TO_STORE.min(spare / 2)),
             clock: self.clock.clone(),
             cancel: self.cancel.clone(),
         };

@@ -26,9 +26,7 @@ import grpc
 from google.protobuf import timestamp_pb2
 from google.rpc import error_details_pb2
 from grpc_health.v1 import health_pb2, health_pb2_grpc
-from grpc_reflection.v1alpha.proto_reflection_descriptor_database import (
-    ProtoReflectionDescriptorDatabase,
-)
+from grpc_reflection.v1alpha import reflection_pb2
 from grpc_status import rpc_status
 from grpc_tools import protoc
 
@@ -296,8 +294,15 @@ def introspection(channel, results):
     health = health_pb2_grpc.HealthStub(channel)
     answer = health.Check(health_pb2.HealthCheckRequest(), timeout=PATIENCE)
     results.check("health says serving", answer.status == health_pb2.HealthCheckResponse.SERVING, answer)
-    # The newest version of the reflection protocol is spoken as `v1`, the library speaks `v1alpha`.
-    names = ProtoReflectionDescriptorDatabase(channel).get_services()
+    # The messages of reflection v1 are those of v1alpha, which the library has.
+    call = channel.stream_stream(
+        "/grpc.reflection.v1.ServerReflection/ServerReflectionInfo",
+        request_serializer=reflection_pb2.ServerReflectionRequest.SerializeToString,
+        response_deserializer=reflection_pb2.ServerReflectionResponse.FromString,
+    )
+    question = reflection_pb2.ServerReflectionRequest(list_services="")
+    answer = next(iter(call(iter([question]), timeout=PATIENCE)))
+    names = [service.name for service in answer.list_services_response.service]
     wanted = {f"voltour.v1.{name}Service" for name in ("Network", "Request", "Departure", "Tour")}
     results.check("reflection lists the services", wanted <= set(names), names)
 

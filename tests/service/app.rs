@@ -114,12 +114,12 @@ impl TestApp {
     }
 
     /// Asks the process to end, and waits for that.
-    pub fn sigterm(&mut self) -> ExitStatus {
+    pub async fn sigterm(&mut self) -> ExitStatus {
         let mut child = self.child.take().expect("a running server");
         let pid = child.id().to_string();
         let sent = Command::new("kill").args(["-TERM", &pid]).status().expect("kill runs");
         assert!(sent.success(), "SIGTERM was not sent");
-        wait_exit(&mut child).unwrap_or_else(|| {
+        wait_exit(&mut child).await.unwrap_or_else(|| {
             self.child = Some(child);
             self.fail("did not end after SIGTERM")
         })
@@ -210,14 +210,15 @@ fn spawn(config: &Path, log: &Path) -> (Child, mpsc::Receiver<String>) {
     (child, line)
 }
 
-/// Waits for the end of a process; none if it outlives our patience.
-pub fn wait_exit(child: &mut Child) -> Option<ExitStatus> {
+/// Waits for the end of a process; none if it outlives our patience. The test goes on meanwhile: its
+/// connections have to hear that the server wants to close them.
+pub async fn wait_exit(child: &mut Child) -> Option<ExitStatus> {
     let end = Instant::now() + PATIENCE;
     while Instant::now() < end {
         if let Some(status) = child.try_wait().expect("the process's state") {
             return Some(status);
         }
-        thread::sleep(Duration::from_millis(10));
+        tokio::time::sleep(Duration::from_millis(10)).await;
     }
     None
 }

@@ -73,14 +73,6 @@ impl TestApp {
         .await
     }
 
-    /// Waits until a request is in a state.
-    pub async fn request_in(&self, id: &str, state: RequestState) -> ChargingRequest {
-        until(&format!("request {state:?}"), || async {
-            Some(self.request(id).await).filter(|r| r.state == state as i32)
-        })
-        .await
-    }
-
     /// The tour of a departure, once there is one.
     pub async fn tour(&self, departure: &Departure) -> Tour {
         let charger = &departure.announced.as_ref().expect("what was announced").charger_id;

@@ -118,7 +118,7 @@ async fn a_newer_request_of_a_planned_sensor_waits_for_the_next_departure() {
     assert_eq!((newer.state, app.state(&planned.id).await), (OPEN, PLANNED));
     // The visit came before the newer request was made, as far as is known from its times.
     let early = ReportVisitRequest {
-        arrived_at: tour.start,
+        arrived_at: planned.received_at,
         departed_at: planned.received_at,
         ..field::visit(&tour.id, "s1", VisitOutcome::Failed)
     };

@@ -23,7 +23,7 @@ async fn a_second_process_on_the_same_database_is_refused() {
     let app = TestApp::start().await;
     app.put(line(1)).await;
     let mut second = serve().arg("--config").arg(app.config_path()).spawn().unwrap();
-    let status = wait_exit(&mut second).unwrap_or_else(|| {
+    let status = wait_exit(&mut second).await.unwrap_or_else(|| {
         let _ = second.kill();
         panic!("the second process runs");
     });
@@ -56,7 +56,7 @@ async fn sigterm_ends_it_cleanly_and_loses_nothing() {
         tours.get_next(next).await
     });
     soon("the present state", watching.message()).await.unwrap();
-    let status = app.sigterm();
+    let status = app.sigterm().await;
     assert_eq!(status.code(), Some(0), "{status}");
     assert!(soon("the end of the wait", waiting).await.unwrap().is_err());
     app.launch().await;
@@ -71,7 +71,7 @@ async fn sigterm_in_the_middle_of_planning_loses_nothing() {
     app.ask("s1").await;
     let announced = app.depart("A").await;
     tokio::time::sleep(std::time::Duration::from_millis(100)).await;
-    assert_eq!(app.sigterm().code(), Some(0));
+    assert_eq!(app.sigterm().await.code(), Some(0));
     app.launch().await;
     let tour = app.tour(&announced).await;
     assert_eq!((tour.revision, tour.stops.len()), (1, 1));
@@ -122,7 +122,7 @@ async fn a_bad_configuration_is_refused_with_the_name_of_the_field() {
         let store = format!("[store]\npath = {:?}\n", app.file("bad.db"));
         std::fs::write(&path, format!("{text}\n{store}")).unwrap();
         let mut server = serve().arg("--config").arg(&path).spawn().unwrap();
-        let status = wait_exit(&mut server).unwrap_or_else(|| {
+        let status = wait_exit(&mut server).await.unwrap_or_else(|| {
             let _ = server.kill();
             panic!("it runs with {text:?}");
         });
@@ -144,7 +144,7 @@ async fn the_environment_overrides_the_file() {
         .env("VOLTOUR_PLANNING__BUDGET", "soon")
         .spawn()
         .unwrap();
-    let status = wait_exit(&mut server);
+    let status = wait_exit(&mut server).await;
     let _ = server.kill();
     let output = server.wait_with_output().unwrap();
     let said = String::from_utf8_lossy(&output.stderr);

@@ -21,7 +21,7 @@ pub struct Struck {
     unheard: u32,
     /// A departure was announced and its batch not closed.
     announced: u32,
-    /// The close of a batch was due and not stored.
+    /// The close of a batch came next: it was due, and nothing was being planned.
     closing: u32,
     /// A batch was closed and its plan not stored.
     planning: u32,
@@ -62,8 +62,10 @@ impl Struck {
         count(|s| &mut s.ingest, !station.waiting.is_empty());
         count(|s| &mut s.unheard, station.waiting.iter().any(|r| stored.contains(&r.client_id)));
         count(|s| &mut s.announced, departures.iter().any(|d| d[0] == "announced"));
-        count(|s| &mut s.closing, departures.iter().any(|d| d[0] == "announced" && due(&d[1])));
-        count(|s| &mut s.planning, departures.iter().any(|d| d[0] == "closed"));
+        let planning = departures.iter().any(|d| d[0] == "closed");
+        let closing = departures.iter().any(|d| d[0] == "announced" && due(&d[1]));
+        count(|s| &mut s.closing, closing && !planning);
+        count(|s| &mut s.planning, planning);
         let fresh = last[0][0].parse::<i64>().is_ok_and(|us| us > now - 30_000);
         count(|s| &mut s.stored, fresh);
         count(|s| &mut s.out, departures.iter().any(|d| d[0] == "planned"));
