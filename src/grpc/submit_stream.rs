@@ -14,8 +14,8 @@ use crate::scheduler::Handle;
 
 /// The acknowledgements of a stream of submissions.
 ///
-/// Items are handed to the scheduler in order: a submission joins the writer's queue when it is first
-/// polled, and they are polled first in order. With `unacknowledged` of them under way no further item
+/// Items join the writer's queue one after the other, so that the later of two requests of a sensor is
+/// also the newer one (futures polled side by side would overtake each other). With `unacknowledged` of them under way no further item
 /// is taken, which holds the client back through HTTP/2's flow control. Dropping it (the client is gone)
 /// drops what is under way; ending the input drains it.
 pub(super) fn acknowledge(
@@ -29,7 +29,7 @@ pub(super) fn acknowledge(
     items
         .take_until(stop.cancelled_owned())
         .enumerate()
-        .map(move |(position, item)| submit(handle.clone(), position as u64, item))
+        .then(move |(position, item)| queue(handle.clone(), position as u64, item))
         .buffered(limits.unacknowledged)
         .chain(last.filter_map(std::future::ready))
         .inspect(move |_| {
@@ -38,22 +38,35 @@ pub(super) fn acknowledge(
         })
 }
 
-async fn submit(
+/// Queues an item; what it returns is its acknowledgement.
+async fn queue(
     handle: Handle,
     position: u64,
     item: Result<SubmitRequest, Status>,
-) -> Result<Acknowledgement, Status> {
-    // A broken transport or an undecodable message ends the stream: what follows cannot be read.
-    let mut item = item?;
-    // Kept to name the item also where it is refused, though no more of it than an id may have.
-    let client_id = item.client_id.chars().take(64).collect();
-    let submitted = match wire::new_request(std::mem::take(&mut item)) {
-        Ok(call) => handle.submit(call).await,
-        Err(refusal) => Err(refusal),
+) -> impl Future<Output = Result<Acknowledgement, Status>> + Send {
+    let queued = match item {
+        Ok(item) => {
+            // Names the item also where it is refused, with no more of it than an id may have.
+            let client_id = item.client_id.chars().take(64).collect();
+            let answer = match wire::new_request(item) {
+                Ok(call) => handle.queue_submit(call).await,
+                Err(refusal) => Err(refusal),
+            };
+            Ok((client_id, answer))
+        }
+        // A broken transport or an undecodable message ends the stream: what follows cannot be read.
+        Err(status) => Err(status),
     };
-    let result = match submitted {
-        Ok(request) => Outcome::Request(wire::request_to_wire(request)),
-        Err(refusal) => Outcome::Refused(refusal.into()),
-    };
-    Ok(Acknowledgement { position, client_id, result: Some(result) })
+    async move {
+        let (client_id, answer) = queued?;
+        let submitted = match answer {
+            Ok(answer) => answer.await,
+            Err(refusal) => Err(refusal),
+        };
+        let result = match submitted {
+            Ok(request) => Outcome::Request(wire::request_to_wire(request)),
+            Err(refusal) => Outcome::Refused(refusal.into()),
+        };
+        Ok(Acknowledgement { position, client_id, result: Some(result) })
+    }
 }

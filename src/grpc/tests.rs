@@ -107,11 +107,17 @@ async fn acknowledgements_come_in_order_and_a_bad_item_does_not_end_the_stream()
     let mut client = RequestServiceClient::new(service.channel.clone());
     let answers = client.submit_stream(tokio_stream::iter(items)).await.unwrap();
     let mut answers = answers.into_inner();
+    let mut last = String::new();
     for position in 0..600 {
         let answer = answers.message().await.unwrap().unwrap();
         assert_eq!((answer.position, answer.client_id), (position, format!("c{position}")));
         match answer.result.unwrap() {
-            Outcome::Request(request) => assert_eq!(request.state(), RequestState::Open),
+            Outcome::Request(request) => {
+                assert_eq!(request.state(), RequestState::Open);
+                // Stored in order, too: their ids are made when they are.
+                assert!(request.id > last, "{position}");
+                last = request.id;
+            }
             Outcome::Refused(refusal) => {
                 let field = refusal.field_violations[0].field.clone();
                 let expected = [(7, "reward"), (8, "sensor_id")];

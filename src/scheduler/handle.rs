@@ -62,6 +62,15 @@ impl Handle {
         self.writer.call(Submit::new(call)).await
     }
 
+    /// [`submit`](Self::submit) in two steps: when this returns, the request's place among the others is
+    /// settled; what it returns is the answer.
+    pub async fn queue_submit(
+        &self,
+        call: Call<NewRequest>,
+    ) -> Result<impl Future<Output = Result<Request, Refusal>> + Send + use<>, Refusal> {
+        self.writer.enqueue(Submit::new(call)).await
+    }
+
     pub async fn withdraw(&self, call: Call<Withdraw>) -> Result<Request, Refusal> {
         self.writer.call(TakeBack(call)).await
     }

@@ -11,3 +11,7 @@ pub mod solvers;
 pub mod stop;
 pub mod tolerance;
 pub mod tour;
+
+/// The tests share files with the integration tests, which know the crate by its name.
+#[cfg(test)]
+extern crate self as voltour_solver;

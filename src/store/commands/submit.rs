@@ -5,9 +5,8 @@ use sqlx::Row;
 
 use super::remembered::same;
 use crate::clock::whole;
-use crate::domain::{
-    Call, Fingerprint, NewRequest, Refusal, Request, RequestId, RequestState, rules,
-};
+use crate::domain::{Call, Fingerprint, NewRequest, Request, RequestId, RequestState, rules};
+use crate::store::StoreError;
 use crate::store::cells::{micros, text};
 use crate::store::rows::{self, request_columns};
 use crate::store::writer::{Command, Failure, Writing};
@@ -136,8 +135,9 @@ impl Command for Submit {
             }
             self.supersede(w).await?;
             if !self.insert(w, &mut request).await? {
-                let reason = "a request stands in the way of a newer one".to_owned();
-                return Err(Refusal::Internal(reason).into());
+                // A defect, and something may be written already: all is rolled back.
+                let reason = "something stands in the way of a newer request";
+                return Err(StoreError::row("requests", reason).into());
             }
         }
         w.networks.opened(&asked.network_id, &asked.sensor_id);

@@ -1,6 +1,7 @@
 //! The loop of the writer, its handle, and what it does when the database fails.
 
 use std::fmt;
+use std::future::Future;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -40,10 +41,19 @@ impl fmt::Debug for Writer {
 impl Writer {
     /// Applies a command; its answer comes after the commit. Waits while the queue is full.
     pub(crate) async fn call<C: Command>(&self, command: C) -> Result<C::Answer, Refusal> {
+        self.enqueue(command).await?.await
+    }
+
+    /// Queues a command, and waits while the queue is full. When this returns, the command's place among
+    /// the others is settled; what it returns is the answer, which comes after the commit.
+    pub(crate) async fn enqueue<C: Command>(
+        &self,
+        command: C,
+    ) -> Result<impl Future<Output = Result<C::Answer, Refusal>> + Send + use<C>, Refusal> {
         let closed = || Refusal::Unavailable("the service is shutting down".into());
         let (job, answer) = Asked::new(command);
         self.queue.send(Box::new(job)).await.map_err(|_| closed())?;
-        answer.await.unwrap_or_else(|_| Err(closed()))
+        Ok(async move { answer.await.unwrap_or_else(|_| Err(closed())) })
     }
 
     /// The number of the last committed change.

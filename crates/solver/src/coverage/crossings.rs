@@ -60,3 +60,23 @@ fn on_both_sides(
     let across = Vector2::new(-axis.y, axis.x) * distance;
     any.then_some([foot + across, foot - across]).into_iter().flatten()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn crossings_lie_on_both_circles() {
+        for (x, range) in [(199.999_999, 100.0), (1e-6, 100.0), (1e-9, 100.0), (1.0, 100.999_999)] {
+            let circles = [(Point::origin(), 100.0), (Point::new(0.6 * x, 0.8 * x), range)];
+            let points: Vec<Point> = circle_circle(circles[0], circles[1]).collect();
+            assert_eq!(points.len(), 2, "{x} {range}");
+            for (centre, radius) in circles {
+                for point in &points {
+                    let offset = (point - centre).norm() - radius;
+                    assert!(offset.abs() < 1e-12, "{x} {range}: {offset:e}");
+                }
+            }
+        }
+    }
+}

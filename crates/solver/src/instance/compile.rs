@@ -1,5 +1,7 @@
 //! [`Instance`]: compiled once per solve; borrows the scenario it was made of.
 
+use std::sync::Arc;
+
 use super::{Candidate, DemandSet, Travel, earliest};
 use crate::coverage::{self, Region};
 use crate::scenario::{Objective, Place, Scenario};
@@ -25,7 +27,7 @@ pub struct Instance<'a> {
     /// By index; all other indices refer to these.
     pub candidates: Vec<Candidate>,
     /// Distances where nothing moves.
-    pub travel: Travel,
+    pub travel: Arc<Travel>,
     /// The distinct covering sets, for the plan.
     pub regions: Vec<Region>,
     /// The demands that no other implies.
@@ -76,7 +78,7 @@ impl<'a> Instance<'a> {
         let travel = Travel::new(scenario, &candidates);
         Self {
             symmetric: scenario.travel.is_none() || travel.is_symmetric(),
-            travel,
+            travel: Arc::new(travel),
             demands: DemandSet::reduced(scenario, &regions, &candidates),
             all_demands: DemandSet::complete(scenario, &regions, &candidates),
             regions,
@@ -111,6 +113,15 @@ impl<'a> Instance<'a> {
         // The tie-break, and a preference where waiting makes time free.
         let tie = 1e-3 * (per_s / charger.speed_mps + per_j * charger.travel_jpm);
         Effort { per_m: per_j * charger.travel_jpm + tie, per_s, per_j }
+    }
+
+    /// The effort that counts only what breaks ties.
+    pub fn tie_effort(&self) -> Effort {
+        match self.scenario.objective {
+            Objective::MinDistance => self.effort,
+            Objective::MaxReward => Effort { per_m: 1.0, per_s: 0.0, per_j: 0.0 },
+            Objective::MaxCount => Effort { per_m: 0.0, per_s: 1.0, per_j: 0.0 },
+        }
     }
 
     /// Number of candidates.

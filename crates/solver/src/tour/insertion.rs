@@ -85,7 +85,9 @@ impl Tour {
             self.delayed(instance, position, candidate)?
         };
         let per = &instance.effort;
-        let effort = per.per_m * metres + per.per_s * seconds.max(0.0) + per.per_j * joules;
+        // Being early where one waits anyway gains nothing.
+        let seconds = if instance.waits { seconds.max(0.0) } else { seconds };
+        let effort = per.per_m * metres + per.per_s * seconds + per.per_j * joules;
         Some(Insertion { position, effort })
     }
 

@@ -15,3 +15,6 @@ pub use run::{Run, simulate};
 pub use segment::Segment;
 pub use sequence::Tour;
 pub use value::Value;
+
+#[cfg(test)]
+mod tests;

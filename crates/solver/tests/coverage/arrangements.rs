@@ -174,36 +174,72 @@ fn thin_lens_and_small_triangle_are_found() {
 
 #[test]
 fn nearly_coincident_circles_leave_long_slivers() {
-    // Seen from afar, each direction ranks the three by how far they are shifted that way.
-    let sets = cover(&[&[], &[0], &[1], &[2], &[0, 1], &[0, 2], &[1, 2], &[0, 1, 2]]);
-    for shift in [1.0, 1e-2, 1e-4, 1e-6, 1e-8, 1e-9] {
-        let disks = [90_f64, 210.0, 330.0].map(|degrees| {
-            let (sin, cos) = degrees.to_radians().sin_cos();
-            [250.0 + shift * cos, 250.0 + shift * sin, 100.0]
-        });
-        assert_eq!(World::square(500.0, &disks).sets(), sets, "shifted by {shift}");
+    let shifts = [[3, 1], [-2, 4], [-5, -1], [1, -6], [7, -2], [-4, -7], [6, 6], [-8, 3]]
+        .map(|s| s.map(f64::from));
+    // Seen from afar, a direction ranks the circles by how far they are shifted that way, and the
+    // slivers from outside to inside are covered by the first, the first two, and so on.
+    let mut sets = cover(&[&[]]);
+    for step in 0..36_000 {
+        let (sin, cos) = (f64::from(step) * 0.01).to_radians().sin_cos();
+        let mut ranking: Vec<u32> = (0..8).collect();
+        let reach = |&i: &u32| -shifts[i as usize][0] * cos - shifts[i as usize][1] * sin;
+        ranking.sort_by(|a, b| reach(a).total_cmp(&reach(b)));
+        for covers in 1..=8 {
+            let mut set = ranking[..covers].to_vec();
+            set.sort_unstable();
+            sets.insert(set);
+        }
+    }
+    for unit in [1e-3, 1e-5, 1e-7, 1e-9] {
+        let disks = shifts.map(|[x, y]| [250.0 + unit * x, 250.0 + unit * y, 100.0]);
+        assert_eq!(World::square(500.0, &disks).sets(), sets, "shifted by {unit}");
     }
 }
 
 #[test]
-fn flower_whose_petals_end_where_many_circles_meet() {
-    // Six circles around a seventh, all through its centre: in it every vertex is of three or six.
-    let petal = |k: u32| {
-        let (sin, cos) = f64::from(60 * k).to_radians().sin_cos();
-        [10.0 + 4.0 * cos, 10.0 + 4.0 * sin, 4.0]
+fn triangular_lattice_where_six_circles_meet_in_every_vertex() {
+    // Neighbours are a range apart. Between three of them lies a region that only they cover, on the
+    // way from one to the next a petal that these two cover and the two to either side.
+    let place = |column: i32, row: i32| {
+        let (x, y) = (f64::from(column) + 0.5 * f64::from(row), f64::from(row) * 0.75_f64.sqrt());
+        [x * 4.0, y * 4.0]
     };
-    let mut disks: Vec<_> = (0..6).map(petal).collect();
-    disks.push([10.0, 10.0, 4.0]);
-    let set = |members: &[u32]| {
-        let mut set: Vec<_> = members.iter().map(|&k| if k == 9 { 6 } else { k % 6 }).collect();
-        set.sort_unstable();
-        set
-    };
-    let mut sets = cover(&[&[]]);
-    for k in 0..6 {
-        sets.extend([set(&[k]), set(&[k, k + 1]), set(&[k, k + 1, 9]), set(&[k, k + 1, k + 2, 9])]);
+    let lattice: Vec<_> =
+        (-2..9).flat_map(|row| (-6..9).map(move |column| (column, row))).collect();
+    let disks: Vec<_> = lattice.iter().map(|&(c, r)| (place(c, r), 4.0)).collect();
+    let disks: Vec<_> = disks.into_iter().map(|([x, y], range)| [x, y, range]).collect();
+    let sets = World::square(20.0, &disks).sets();
+    let mut seen = 0;
+    for &(c, r) in &lattice {
+        let up = vec![(c, r), (c + 1, r), (c, r + 1)];
+        let down = vec![(c + 1, r), (c, r + 1), (c + 1, r + 1)];
+        let petal = vec![(c + 1, r), (c, r + 1), (c, r), (c + 1, r + 1)];
+        for corners in [up, down, petal] {
+            let middle = corners.iter().map(|&(c, r)| place(c, r)).fold([0.0; 2], |sum, [x, y]| {
+                [sum[0] + x / corners.len() as f64, sum[1] + y / corners.len() as f64]
+            });
+            if middle.iter().all(|x| (0.5..19.5).contains(x)) {
+                let index = |corner| lattice.iter().position(|other| other == corner);
+                let set: Option<Vec<_>> = corners.iter().map(|c| Some(index(c)? as u32)).collect();
+                let mut set = set.expect("the lattice reaches beyond the field");
+                set.sort_unstable();
+                assert!(sets.contains(&set), "{corners:?} is missing");
+                seen += 1;
+            }
+        }
     }
-    assert_eq!(World::square(20.0, &disks).sets(), sets);
+    assert!(seen > 60, "{seen}");
+    assert!(sets.iter().all(|set| set.len() == 3 || set.len() == 4), "{sets:?}");
+}
+
+#[test]
+fn small_triangle_far_from_the_origin() {
+    const FAR: f64 = 1_048_576.0;
+    let field = [[0.0, 0.0], [20.0, 0.0], [20.0, 20.0], [0.0, 20.0]];
+    let disks = [[7.0, 6.0, 5.0], [13.0, 6.0, 5.0], [10.0, 15.0, 5.0 + 1e-8]];
+    let field = field.map(|[x, y]| [x + FAR, y - FAR]);
+    let sets = World::new(&field, &disks.map(|[x, y, r]| [x + FAR, y - FAR, r])).sets();
+    assert_eq!(sets.len(), 8, "{sets:?}");
 }
 
 #[test]

@@ -10,3 +10,6 @@ mod ruin;
 mod search;
 
 pub use search::solve;
+
+#[cfg(test)]
+mod tests;

@@ -16,6 +16,8 @@ use crate::tour::Insertion;
 
 /// A place is overlooked this often.
 const BLINK: f64 = 0.01;
+/// A stop that is worth nothing comes in this often where two such may be a short cut.
+const DETOUR: f64 = 0.05;
 /// Tours up to this length are searched whole for a place; longer ones next to near stops.
 const WHOLE: usize = 40;
 /// Near stops tried in longer tours.
@@ -30,7 +32,11 @@ pub fn recreate(
     near: &mut Neighbours,
     rng: &mut Pcg64Mcg,
 ) {
-    pool.retain(|&c| !partial.tour.serves(c) && cost.worth(instance, partial, c) > 0.0);
+    // Without the triangle inequality a stop that is worth nothing may still be a short cut.
+    let detours = !instance.metric;
+    pool.retain(|&c| {
+        !partial.tour.serves(c) && (detours || cost.worth(instance, partial, c) > 0.0)
+    });
     pool.shuffle(rng);
     let by = rng.random_range(0..8);
     if by == 0 && pool.len() * partial.tour.len() < 2000 {
@@ -42,10 +48,13 @@ pub fn recreate(
     }
     sort(instance, partial, pool, cost, by, near, rng);
     for &candidate in pool.iter() {
-        if cost.worth(instance, partial, candidate) <= 0.0 {
+        let worthless = cost.worth(instance, partial, candidate) <= 0.0;
+        if worthless && !detours {
             continue;
         }
-        if let Some(place) = place(instance, partial, candidate, near, rng) {
+        if let Some(place) = place(instance, partial, candidate, near, rng)
+            && (!worthless || place.effort < 0.0 || rng.random_bool(DETOUR))
+        {
             partial.insert(instance, place.position, candidate);
         }
     }

@@ -6,7 +6,7 @@ use rand_pcg::Pcg64Mcg;
 use super::cost::Cost;
 use super::recreate::recreate;
 use super::ruin::ruin;
-use crate::instance::Instance;
+use crate::instance::{Effort, Instance};
 use crate::local_search::{Neighbours, descend};
 use crate::scenario::Objective;
 use crate::solvers::entry::Found;
@@ -18,7 +18,9 @@ use crate::tour::Value;
 const HEAT_OF_DISTANCE: (f64, f64) = (0.3, 0.003);
 const HEAT_OF_GAIN: (f64, f64) = (3.0, 0.01);
 /// Iterations of the first annealing run.
-const FIRST_RUN: u64 = 2000;
+const FIRST_RUN: u64 = 1000;
+/// Annealing runs without a feasible tour after which the best effort is looked for instead.
+const PATIENT_RUNS: u32 = 5;
 /// Pools beyond this size are cut down to the neighbourhood of what left.
 const WIDE_POOL: usize = 100;
 /// Tours longer than this are improved by local search in every iteration.
@@ -39,16 +41,15 @@ pub fn solve(
         let order = order.unwrap_or_else(|| shortcut::legal_start(instance));
         return found(order, vec![("enumeration".to_owned(), budget.iterations() - before)]);
     }
-    search(instance, start, rng, budget, &found)
+    search(instance, start, rng, budget)
 }
 
 /// [`solve`] without the enumeration of small instances.
-fn search(
+pub(super) fn search(
     instance: &Instance<'_>,
     start: &[u32],
     rng: &mut Pcg64Mcg,
     budget: &mut Budget<'_>,
-    found: &dyn Fn(Vec<u32>, Vec<(String, u64)>) -> Found,
 ) -> Found {
     let before = budget.iterations();
     let mut first = start.to_vec();
@@ -57,15 +58,27 @@ fn search(
     }
     let built = budget.iterations();
     let mut search = Search::new(instance, Partial::new(instance, &first), rng);
-    search.run(budget);
-    let order = search.best.tour.order().to_vec();
+    search.run(budget, PATIENT_RUNS);
+    let mut order = search.best.tour.order().to_vec();
+    if !search.best_value.is_feasible() && !budget.is_spent() {
+        // Where not every demand can be met, it matters how many covering sets stand behind each.
+        let mut complete = instance.clone();
+        complete.demands = instance.all_demands.clone();
+        let mut search = Search::new(&complete, Partial::new(&complete, &order), rng);
+        search.run(budget, u32::MAX);
+        order = search.best.tour.order().to_vec();
+    }
     let ruined = budget.iterations() - built;
     let phases = [("construction", built - before), ("ruin and recreate", ruined)];
-    found(order, phases.into_iter().map(|(phase, count)| (phase.to_owned(), count)).collect())
+    let iterations = phases.into_iter().map(|(phase, count)| (phase.to_owned(), count)).collect();
+    Found { order, solver: SolverName::Baseline, iterations }
 }
 
 struct Search<'a, 'b> {
-    instance: &'a Instance<'b>,
+    /// Its own, for it changes what counts as effort.
+    instance: Instance<'b>,
+    scarce: Effort,
+    tie: Effort,
     rng: &'a mut Pcg64Mcg,
     near: Neighbours,
     cost: Cost,
@@ -76,21 +89,26 @@ struct Search<'a, 'b> {
 }
 
 impl<'a, 'b> Search<'a, 'b> {
-    fn new(instance: &'a Instance<'b>, first: Partial, rng: &'a mut Pcg64Mcg) -> Self {
+    fn new(instance: &Instance<'b>, first: Partial, rng: &'a mut Pcg64Mcg) -> Self {
         let in_demand = |c: u32| !instance.demands.of[c as usize].is_empty();
         let all = 0..instance.len() as u32;
         Self {
             near: Neighbours::new(instance),
             cost: Cost::new(instance, &first),
-            useful: all.filter(|&c| in_demand(c) || gain(instance, c) > 0.0).collect(),
+            useful: all
+                .filter(|&c| !instance.metric || in_demand(c) || gain(instance, c) > 0.0)
+                .collect(),
             best_value: Value::of(instance, &first.tour),
             best: first,
-            instance,
+            instance: instance.clone(),
+            scarce: instance.effort,
+            tie: instance.tie_effort(),
             rng,
         }
     }
 
-    fn run(&mut self, budget: &mut Budget<'_>) {
+    /// Anneals until the budget ends, nothing improves any more, or `runs` runs gave no feasible tour.
+    fn run(&mut self, budget: &mut Budget<'_>, runs: u32) {
         if self.useful.is_empty() || budget.is_spent() {
             return;
         }
@@ -100,16 +118,19 @@ impl<'a, 'b> Search<'a, 'b> {
         };
         let mut length = FIRST_RUN;
         let mut improved = budget.iterations();
-        loop {
+        for run in 1.. {
+            // Every other run spends what breaks ties sparingly, rather than what is scarce.
+            self.instance.effort = if run % 2 == 0 { self.tie } else { self.scarce };
+            self.cost.price(&&self.instance, &self.best.tour);
             let mut current = self.best.clone();
             let mut trial = current.clone();
-            let mut current_cost = self.cost.of(self.instance, &current);
+            let mut current_cost = self.cost.of(&self.instance, &current);
             for i in 0..length {
                 let share = i as f64 / length as f64;
                 let heat = self.cost.scale * hot * (cold / hot).powf(share);
                 trial.clone_from(&current);
                 self.change(&mut trial);
-                let trial_cost = self.cost.of(self.instance, &trial);
+                let trial_cost = self.cost.of(&self.instance, &trial);
                 let luck = -heat * self.rng.random_range(1e-12..1.0_f64).ln();
                 if trial.tour.is_legal() && trial_cost < current_cost + luck {
                     std::mem::swap(&mut current, &mut trial);
@@ -118,15 +139,16 @@ impl<'a, 'b> Search<'a, 'b> {
                         improved = budget.iterations();
                     }
                 }
-                if current.missing(self.instance) > 0 || i % 64 == 0 {
-                    self.cost.adapt(self.instance, &current);
-                    current_cost = self.cost.of(self.instance, &current);
+                if current.missing(&self.instance) > 0 || i % 64 == 0 {
+                    self.cost.adapt(&self.instance, &current);
+                    current_cost = self.cost.of(&self.instance, &current);
                 }
                 if !budget.spend() {
                     return;
                 }
             }
-            if budget.iterations() - improved > self.patience() {
+            let stuck = run >= runs && !self.best_value.is_feasible();
+            if stuck || budget.iterations() - improved > self.patience() {
                 return;
             }
             length *= 2;
@@ -136,15 +158,15 @@ impl<'a, 'b> Search<'a, 'b> {
     /// Iterations without improvement after which the search ends.
     fn patience(&self) -> u64 {
         let stops = self.best.tour.len() as u64 + 1;
-        500 * stops * stops + 20 * self.useful.len() as u64
+        15 * stops * stops * stops + 20 * self.useful.len() as u64
     }
 
     fn change(&mut self, trial: &mut Partial) {
         let mut leaves = vec![false; self.instance.len()];
-        let removed = ruin(self.instance, &trial.tour, &mut self.near, self.rng, &mut leaves);
-        trial.remove(self.instance, |c| leaves[c as usize]);
+        let removed = ruin(&self.instance, &trial.tour, &mut self.near, self.rng, &mut leaves);
+        trial.remove(&self.instance, |c| leaves[c as usize]);
         let mut pool = self.pool(&removed);
-        recreate(self.instance, trial, &mut pool, &self.cost, &mut self.near, self.rng);
+        recreate(&self.instance, trial, &mut pool, &self.cost, &mut self.near, self.rng);
         if self.instance.scenario.objective == Objective::MinDistance {
             self.prune(trial);
         }
@@ -152,7 +174,7 @@ impl<'a, 'b> Search<'a, 'b> {
             let mut dirty = removed;
             dirty.extend(pool);
             dirty.retain(|&c| trial.tour.serves(c));
-            descend(self.instance, &mut trial.tour, &mut self.near, &mut dirty, 100);
+            descend(&self.instance, &mut trial.tour, &mut self.near, &mut dirty, 100);
         }
     }
 
@@ -162,7 +184,7 @@ impl<'a, 'b> Search<'a, 'b> {
         }
         let mut pool = removed.to_vec();
         for &candidate in removed {
-            pool.extend(self.near.of(self.instance, candidate).iter().take(6));
+            pool.extend(self.near.of(&self.instance, candidate).iter().take(6));
         }
         pool.sort_unstable();
         pool.dedup();
@@ -171,7 +193,7 @@ impl<'a, 'b> Search<'a, 'b> {
 
     /// Takes out stops that no demand needs, in random order.
     fn prune(&mut self, trial: &mut Partial) {
-        let instance = self.instance;
+        let instance = &self.instance;
         let stops = trial.tour.len();
         let offset = if stops == 0 { 0 } else { self.rng.random_range(0..stops) };
         let order: Vec<u32> = trial.tour.order().to_vec();
@@ -191,14 +213,14 @@ impl<'a, 'b> Search<'a, 'b> {
 
     /// Keeps a tour that is better than the best.
     fn keep(&mut self, current: &Partial) -> bool {
-        let missing = if current.missing(self.instance) == 0 {
+        let missing = if current.missing(&self.instance) == 0 {
             (0, 0)
         } else if self.best_value.is_feasible() {
             return false;
         } else {
             self.instance.all_demands.missing(|c| current.tour.serves(c))
         };
-        let value = Value::with_missing(self.instance, &current.tour, missing);
+        let value = Value::with_missing(&self.instance, &current.tour, missing);
         let better = value.beats(&self.best_value);
         if better {
             self.best_value = value;

@@ -1,0 +1,40 @@
+//! The search against the enumeration, on instances small enough for both.
+
+use rand_pcg::Pcg64Mcg;
+use rand_pcg::rand_core::SeedableRng;
+
+use super::search::search;
+use crate::instance::Instance;
+use crate::scenario::Scenario;
+use crate::solvers::{Budget, enumerate::enumerate};
+use crate::stop::MaxIterations;
+use crate::tour::{Tour, Value};
+
+#[path = "../../../tests/mixed/mod.rs"]
+mod mixed;
+
+/// How often the search may miss the best tour: without the triangle inequality a set of stops may be
+/// legal though none of its subsets is.
+const MISSES: usize = 15;
+
+#[test]
+fn the_search_finds_what_the_enumeration_finds() {
+    let mut missed = Vec::new();
+    for seed in 0..600 {
+        let Ok(scenario) = Scenario::from_document(&mixed::draw(6, seed)) else { continue };
+        let instance = Instance::new(&scenario);
+        let mut budget = Budget::new(&MaxIterations(u64::MAX));
+        let Some(best) = enumerate(&instance, &mut budget) else { continue };
+        let mut rng = Pcg64Mcg::seed_from_u64(seed);
+        let mut budget = Budget::new(&MaxIterations(20_000));
+        let found = search(&instance, &[], &mut rng, &mut budget).order;
+        let value = |order: &[u32]| Value::of(&instance, &Tour::new(&instance, order));
+        assert!(!value(&found).beats(&value(&best)), "{:?}", scenario.name);
+        if !Tour::new(&instance, &found).is_legal() || value(&best).beats(&value(&found)) {
+            missed.push((scenario.name.clone(), value(&best), value(&found), instance.metric));
+        }
+    }
+    let metric: Vec<_> = missed.iter().filter(|(.., metric)| *metric).collect();
+    assert!(metric.is_empty(), "{metric:?}");
+    assert!(missed.len() <= MISSES, "{}: {missed:?}", missed.len());
+}
