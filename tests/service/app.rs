@@ -28,6 +28,8 @@ pub struct Settings {
     pub lead: &'static str,
     pub max_late: &'static str,
     pub overdue_after: &'static str,
+    /// Further sections.
+    pub more: &'static str,
 }
 
 impl Default for Settings {
@@ -38,18 +40,19 @@ impl Default for Settings {
             lead: "400ms",
             max_late: "10m",
             overdue_after: "30m",
+            more: "",
         }
     }
 }
 
 impl Settings {
     fn toml(&self, store: &Path) -> String {
-        let Self { solver, budget, lead, max_late, overdue_after } = self;
+        let Self { solver, budget, lead, max_late, overdue_after, more } = self;
         format!(
             "[grpc]\nlisten = \"127.0.0.1:0\"\n\n[rest]\nlisten = \"127.0.0.1:0\"\n\n\
              [store]\npath = {store:?}\n\n\
              [planning]\nsolver = {solver:?}\nbudget = {budget:?}\nlead = {lead:?}\n\
-             max_late = {max_late:?}\noverdue_after = {overdue_after:?}\nseed = 7\n"
+             max_late = {max_late:?}\noverdue_after = {overdue_after:?}\nseed = 7\n\n{more}"
         )
     }
 }

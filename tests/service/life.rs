@@ -37,11 +37,11 @@ async fn a_request_is_planned_and_served() {
     let departure = app.departure(&departure.id).await;
     assert_eq!(departure.state, DepartureState::Planned as i32);
     assert_eq!((departure.batch_size, &departure.plan_id), (1, &tour.plan_id));
-    assert_eq!(departure.tour_ids, [tour.id.clone()]);
+    assert_eq!(departure.tour_ids, [tour.id.as_str()]);
     assert_eq!(us(&departure.start), us(&tour.start));
 
     let visit = app.charged(&tour, "s2").await;
-    assert_eq!(visit.served_request_ids, [open.id.clone()]);
+    assert_eq!(visit.served_request_ids, [open.id.as_str()]);
     assert_eq!(app.state(&open.id).await, SERVED);
 
     let over = app.complete(&tour).await;
@@ -158,7 +158,7 @@ async fn a_visit_before_the_newer_request_leaves_that_open() {
         ..field::visit(&tour.id, "s1", VisitOutcome::Charged)
     };
     let visit = app.tours().report_visit(visit).await.unwrap().into_inner();
-    assert_eq!(visit.served_request_ids, [planned.id.clone()]);
+    assert_eq!(visit.served_request_ids, [planned.id.as_str()]);
     assert_eq!((app.state(&planned.id).await, app.state(&newer.id).await), (SERVED, OPEN));
 }
 
@@ -169,7 +169,7 @@ async fn a_visit_serves_an_open_request_of_a_sensor_that_is_no_stop() {
     let tour = app.drive("A").await;
     let asked = app.ask("s2").await;
     let visit = app.charged(&tour, "s2").await;
-    assert_eq!(visit.served_request_ids, [asked.id.clone()]);
+    assert_eq!(visit.served_request_ids, [asked.id.as_str()]);
     assert_eq!(app.state(&asked.id).await, SERVED);
 }
 
@@ -182,6 +182,6 @@ async fn the_reports_of_a_tour_that_is_over_are_still_stored() {
     app.complete(&tour).await;
     assert_eq!(app.state(&asked.id).await, OPEN);
     let visit = app.charged(&tour, "s1").await;
-    assert_eq!(visit.served_request_ids, [asked.id.clone()]);
+    assert_eq!(visit.served_request_ids, [asked.id.as_str()]);
     assert_eq!(app.state(&asked.id).await, SERVED);
 }

@@ -21,6 +21,8 @@ mod downtime;
 mod get_next;
 mod idempotency;
 mod life;
+mod limits;
+mod operator;
 mod pages;
 mod process;
 mod queue;

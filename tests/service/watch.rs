@@ -36,7 +36,7 @@ async fn requests_first_as_they_are_then_as_they_change() {
     app.withdraw(&withdrawn.id).await;
     let (one, two) = (app.ask("s1").await, app.ask("s2").await);
     let mut watch = requests(&app).await;
-    let mut present = vec![next(&mut watch).await, next(&mut watch).await];
+    let mut present = [next(&mut watch).await, next(&mut watch).await];
     assert!(present.iter().all(|change| change.initial));
     present.sort_by(|a, b| a.request.as_ref().unwrap().id.cmp(&b.request.as_ref().unwrap().id));
     assert_eq!(present[0].request.as_ref(), Some(&one));

@@ -1,6 +1,6 @@
 //! When to kill: anywhere, or around a moment that is known beforehand, so that few trials hit all phases.
 
-use std::sync::atomic::{AtomicBool, AtomicI64, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicI64, AtomicU64, Ordering};
 use std::time::Duration;
 
 use super::rng::Rng;
@@ -12,6 +12,8 @@ pub struct Killed {
     struck: AtomicBool,
     /// When the batch that was announced last will close; 0 before.
     closes_us: AtomicI64,
+    /// Tours that chargers were given.
+    fetched: AtomicU64,
 }
 
 impl Killed {
@@ -24,8 +26,24 @@ impl Killed {
         self.struck.load(Ordering::SeqCst)
     }
 
+    pub fn fetched(&self) {
+        self.fetched.fetch_add(1, Ordering::SeqCst);
+    }
+
     pub fn announced(&self, closes_us: i64) {
         self.closes_us.store(closes_us, Ordering::SeqCst);
+    }
+}
+
+impl Killed {
+    /// Waits for the next tour that a charger is given.
+    async fn next_tour(&self) {
+        let before = self.fetched.load(Ordering::SeqCst);
+        let end = now_us() + 30_000_000;
+        while self.fetched.load(Ordering::SeqCst) == before {
+            assert!(now_us() < end, "waited in vain: a tour");
+            tokio::time::sleep(Duration::from_millis(1)).await;
+        }
     }
 }
 
@@ -42,12 +60,15 @@ pub enum Aim {
     Planning,
     /// The transaction that stores the plan.
     Storing,
+    /// The moment at which a charger has its tour.
+    Fetching,
 }
 
 impl Aim {
     pub fn draw(rng: &mut Rng) -> Self {
-        let all = [Self::Anywhere, Self::Retries, Self::Closing, Self::Planning, Self::Storing];
-        all[rng.range(0, 5) as usize]
+        use Aim::{Anywhere, Closing, Fetching, Planning, Retries, Storing};
+        let all = [Anywhere, Retries, Closing, Planning, Storing, Fetching];
+        all[rng.range(0, 6) as usize]
     }
 
     /// Waits until it is time.
@@ -59,6 +80,7 @@ impl Aim {
             Self::Closing => rng.range(0, 16) as i64 - 4,
             Self::Planning => rng.range(5, 120) as i64,
             Self::Storing => rng.range(115, 160) as i64,
+            Self::Fetching => return killed.next_tour().await,
         };
         let closes_us = until("a departure to aim at", || async {
             let closes_us = killed.closes_us.load(Ordering::SeqCst);

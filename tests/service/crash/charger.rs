@@ -133,6 +133,9 @@ impl Charger {
                 });
                 next.set_timeout(PATIENCE);
                 let tour = tours.get_next(next).await?.into_inner();
+                if let Some(killed) = killed {
+                    killed.fetched();
+                }
                 assert_eq!(tour.departure_id, departure.id);
                 self.tours.insert(departure.id, tour.clone());
                 let reports = self.reports(&tour);
