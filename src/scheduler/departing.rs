@@ -41,13 +41,13 @@ pub(super) enum Stuck {
 impl Departing {
     /// Takes a departure as far as it goes now.
     pub async fn depart(&self, id: DepartureId) -> Result<(), Stuck> {
-        let mut budget = self.settings.budget;
+        let Settings { mut budget, mut lead, .. } = self.settings;
         loop {
             // A thread first: a closed batch has no time to wait for one.
             let Some(_thread) = self.thread().await else { return Ok(()) };
-            let Some(batch) = self.close(id).await? else { return Ok(()) };
+            let Some(batch) = self.close(id, lead).await? else { return Ok(()) };
             let start = batch.start;
-            let plan = match self.plan(*batch, budget).await {
+            let plan = match self.plan(*batch, budget, lead).await {
                 Err(Stuck::Plan(error)) => return self.give_up(id, &error).await,
                 plan => plan?,
             };
@@ -59,7 +59,9 @@ impl Departing {
                 Storing::Gone => return Ok(()),
                 Storing::Late => {
                     tracing::warn!(departure = %id, %start, "the plan came after its second 0");
+                    // The batch is larger than the lead was meant for: search less, begin earlier.
                     budget /= 2;
+                    lead *= 2;
                 }
             }
         }
@@ -74,8 +76,8 @@ impl Departing {
         }
     }
 
-    async fn close(&self, id: DepartureId) -> Result<Option<Box<Batch>>, Stuck> {
-        let Settings { lead, max_late, .. } = self.settings;
+    async fn close(&self, id: DepartureId, lead: Duration) -> Result<Option<Box<Batch>>, Stuck> {
+        let max_late = self.settings.max_late;
         let closing = self.writer.call(CloseBatch { departure_id: id, lead, max_late }).await?;
         match closing {
             Closing::Closed(batch) => {
@@ -91,9 +93,14 @@ impl Departing {
         }
     }
 
-    async fn plan(&self, batch: Batch, budget: Duration) -> Result<crate::store::NewPlan, Stuck> {
+    async fn plan(
+        &self,
+        batch: Batch,
+        budget: Duration,
+        lead: Duration,
+    ) -> Result<crate::store::NewPlan, Stuck> {
         // A lead that is hardly longer than the budget must not end the search before it begins.
-        let spare = self.settings.lead.saturating_sub(self.settings.budget);
+        let spare = lead.saturating_sub(budget);
         let contest = Contest {
             solver: self.settings.solver,
             seed: self.settings.seed,
