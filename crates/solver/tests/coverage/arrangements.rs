@@ -197,6 +197,20 @@ fn nearly_coincident_circles_leave_long_slivers() {
 }
 
 #[test]
+fn sliver_that_is_wide_enough_only_far_from_its_ends() {
+    // Inside the circles of 0 and 3, outside those of 1 and 2: up to 1e-7 m wide over tens of metres.
+    let disks = [
+        [250.0000233285937, 250.000015935717, 100.000001],
+        [249.9999998465349, 249.9999996041578, 100.0],
+        [249.99999946547237, 249.99999895935758, 100.000001],
+        [249.9999999883435, 249.99999999949148, 100.0],
+    ];
+    let world = World::square(500.0, &disks);
+    assert_eq!(world.covering(294.91395544570867, 339.34616154185056), [0, 3]);
+    assert!(world.sets().contains(&vec![0, 3]));
+}
+
+#[test]
 fn triangular_lattice_where_six_circles_meet_in_every_vertex() {
     // Neighbours are a range apart. Between three of them lies a region that only they cover, on the
     // way from one to the next a petal that these two cover and the two to either side.
