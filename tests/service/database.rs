@@ -24,10 +24,10 @@ pub async fn rows(conn: &mut SqliteConnection, sql: &'static str) -> Vec<Vec<Str
     rows.iter().map(|row| (0..row.len()).map(|column| text(row, column)).collect()).collect()
 }
 
-/// Opens a copy of a database that nobody has open.
+/// Opens a database that nobody else has open, such as a copy.
 pub async fn open_copy(path: &Path) -> SqliteConnection {
     let options = SqliteConnectOptions::new().filename(path);
-    options.disable_statement_logging().connect().await.expect("the copy opens")
+    options.disable_statement_logging().connect().await.expect("the database opens")
 }
 
 impl TestApp {

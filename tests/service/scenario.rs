@@ -106,7 +106,12 @@ async fn a_dead_sensor_is_left_out_until_a_newer_request_brings_it_back() {
     let tour = app.drive("A").await;
     assert_eq!(listed(&app.scenario(&tour).await, "sensors", "id"), ["s2", "s3"], "and next time");
     app.complete(&tour).await;
-    // Without a deadline: whoever posts it says that the sensor can be charged.
+    // Without a deadline: whoever posts it says that the sensor lives, even if it is taken back.
+    let newer = app.ask("s1").await;
+    app.withdraw(&newer.id).await;
+    let tour = app.drive("A").await;
+    assert_eq!(listed(&app.scenario(&tour).await, "sensors", "id"), ["s1", "s2", "s3"]);
+    app.complete(&tour).await;
     app.ask("s1").await;
     let tour = app.drive("A").await;
     let scenario = app.scenario(&tour).await;

@@ -136,6 +136,31 @@ async fn settle(app: &TestApp, station: &mut Station, chargers: &mut [Charger]) 
     app.complete(&tour).await;
 }
 
+/// A request that was acknowledged and is not there.
+#[tokio::test]
+#[should_panic(expected = "lost: ")]
+async fn a_lost_request_is_noticed() {
+    let app = TestApp::start().await;
+    app.put(line(1)).await;
+    let mut station = Station::new(1);
+    let nowhere = "0190163d-8694-739b-8ca7-c9f6e6a7b0a1".to_owned();
+    station.acknowledged.push((crate::field::request("s1"), nowhere));
+    verify::acknowledged(&app, &station, &[]).await;
+}
+
+/// A request that is planned without a tour.
+#[tokio::test]
+#[should_panic(expected = "a planned request that is no stop")]
+async fn a_broken_rule_is_noticed() {
+    let mut app = TestApp::start().await;
+    app.put(line(1)).await;
+    app.ask("s1").await;
+    app.kill9();
+    let mut conn = crate::database::open_copy(&app.database()).await;
+    sqlx::query("UPDATE requests SET state = 'planned'").execute(&mut conn).await.unwrap();
+    rules::hold(&app.database()).await;
+}
+
 /// Sensors on a spiral, and a capacity that leaves most of a batch for the next departure.
 fn network() -> NetworkSpec {
     let mut spec = line(SENSORS);
