@@ -2,7 +2,7 @@
 //! values: `gaps SECONDS SEEDS SOLVER [--best TABLE.csv] FILE...`.
 #![allow(clippy::disallowed_methods, clippy::print_stdout, clippy::unwrap_used)]
 
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use voltour_solver::check;
 use voltour_solver::scenario::Scenario;
@@ -28,13 +28,12 @@ fn main() {
         let mut line = format!("{name:45}");
         for seed in 0..seeds {
             let begin = Instant::now();
-            let limit = Duration::from_secs_f64(seconds);
-            let cpu0 = cpu();
-            let stop =
-                |i: u64| if i % 16 == 0 { cpu() - cpu0 >= limit.as_secs_f64() } else { false };
+            let zero = spent(begin);
+
+            let stop = |i: u64| i % 16 == 0 && spent(begin) - zero >= seconds;
             let outcome = solve(&scenario, &Options { solver, seed, stop: &stop }).unwrap();
-            let elapsed = Duration::from_secs_f64(cpu() - cpu0);
-            let _ = begin;
+            let elapsed = spent(begin) - zero;
+
             let faults = check::check(&scenario, &outcome.plan);
             let plan = &outcome.plan;
             line += &format!(
@@ -49,7 +48,7 @@ fn main() {
                 count += 1.0;
             }
             let iterations: u64 = outcome.iterations.iter().map(|(_, n)| n).sum();
-            line += &format!(" {:.0} ms {iterations} it;", 1e3 * elapsed.as_secs_f64());
+            line += &format!(" {:.0} ms {iterations} it;", 1e3 * elapsed);
             if !faults.is_empty() {
                 line += &format!(" BROKEN {faults:?}");
             }
@@ -61,8 +60,10 @@ fn main() {
     }
 }
 
-/// Seconds of processor time of this thread.
-fn cpu() -> f64 {
-    let text = std::fs::read_to_string("/proc/thread-self/schedstat").unwrap();
-    text.split(' ').next().unwrap().parse::<f64>().unwrap() / 1e9
+/// Seconds of processor time of this thread where the system tells it, so that a busy machine measures
+/// the same; else seconds since `begin`.
+fn spent(begin: Instant) -> f64 {
+    let text = std::fs::read_to_string("/proc/thread-self/schedstat").ok();
+    let nanoseconds = text.and_then(|text| text.split(' ').next()?.parse::<f64>().ok());
+    nanoseconds.map_or_else(|| begin.elapsed().as_secs_f64(), |nanoseconds| nanoseconds / 1e9)
 }

@@ -1,4 +1,5 @@
 //! The solvers against an oracle, the checker, and each other.
+#![allow(clippy::unwrap_used, clippy::panic)]
 
 mod mixed;
 

@@ -36,7 +36,7 @@ impl Travel {
         }
         let row =
             |from: &Point| points.iter().map(move |to| (to - from).norm()).collect::<Vec<_>>();
-        Self::Dense { size, distance_m: points.iter().flat_map(|from| row(from)).collect() }
+        Self::Dense { size, distance_m: points.iter().flat_map(row).collect() }
     }
 
     /// Distance from one place to another, in metres.

@@ -91,7 +91,7 @@ impl Segment {
         let leg_m = instance.distance_m(run.node as usize, self.first as usize);
         let reach_s = run.depart_s + leg_m / instance.scenario.charger.speed_mps;
         let depart_s = self.floor.max(self.offset + self.slope * reach_s);
-        (reach_s <= self.latest_s).then(|| Run {
+        (reach_s <= self.latest_s).then_some(Run {
             node: self.last,
             place: run.place,
             arrive_s: depart_s,

@@ -121,7 +121,7 @@ impl<'a, 'b> Search<'a, 'b> {
         for run in 1.. {
             // Every other run spends what breaks ties sparingly, rather than what is scarce.
             self.instance.effort = if run % 2 == 0 { self.tie } else { self.scarce };
-            self.cost.price(&&self.instance, &self.best.tour);
+            self.cost.price(&self.instance, &self.best.tour);
             let mut current = self.best.clone();
             let mut trial = current.clone();
             let mut current_cost = self.cost.of(&self.instance, &current);

@@ -8,6 +8,7 @@ use crate::instance::Instance;
 use crate::scenario::Scenario;
 use crate::solvers::{Budget, enumerate::enumerate};
 use crate::stop::MaxIterations;
+use crate::tolerance::agrees;
 use crate::tour::{Tour, Value};
 
 #[path = "../../../tests/mixed/mod.rs"]
@@ -37,4 +38,36 @@ fn the_search_finds_what_the_enumeration_finds() {
     let metric: Vec<_> = missed.iter().filter(|(.., metric)| *metric).collect();
     assert!(metric.is_empty(), "{metric:?}");
     assert!(missed.len() <= MISSES, "{}: {missed:?}", missed.len());
+}
+
+/// Small scenarios of every kind, kept as files, with the optimum that the enumeration finds.
+const GOLDEN: [(&str, f64); 11] = [
+    ("coverage-6", 1602.4040091482204),
+    ("coverage-13", 1005.1308956551946),
+    ("reward-0", 24897.260210999997),
+    ("reward-1", 27008.946648000005),
+    ("mobile-1", 7.0),
+    ("mobile-2", 7.0),
+    ("mixed-7", 215.77702935500295),
+    ("mixed-11", 229.57470766062988),
+    ("mixed-20", 406.2721076425302),
+    ("mixed-21", 5.0),
+    ("mixed-24", 3.0),
+];
+
+#[test]
+fn golden_scenarios_keep_their_optimum() {
+    for (name, optimum) in GOLDEN {
+        let path = format!("{}/tests/golden/{name}.json", env!("CARGO_MANIFEST_DIR"));
+        let scenario = Scenario::from_json(&std::fs::read(path).unwrap()).unwrap();
+        let instance = Instance::new(&scenario);
+        let mut budget = Budget::new(&MaxIterations(u64::MAX));
+        let best = enumerate(&instance, &mut budget).unwrap();
+        let mut rng = Pcg64Mcg::seed_from_u64(0);
+        let found = search(&instance, &[], &mut rng, &mut budget).order;
+        for order in [best, found] {
+            let value = Value::of(&instance, &Tour::new(&instance, &order));
+            assert!(value.is_feasible() && agrees(value.cost.abs(), optimum), "{name}: {value:?}");
+        }
+    }
 }
