@@ -64,7 +64,7 @@ fn run(scenario: &Scenario, seconds: f64, seed: u64) -> (Plan, f64) {
     let begin = Instant::now();
     let zero = spent(begin);
 
-    let stop = |i: u64| i % 16 == 0 && spent(begin) - zero >= seconds;
+    let stop = |i: u64| i.is_multiple_of(16) && spent(begin) - zero >= seconds;
     let options = Options { solver: SolverName::Auto, seed, stop: &stop };
     let plan = solve(scenario, &options).unwrap().plan;
     let elapsed = spent(begin) - zero;

@@ -30,7 +30,7 @@ fn main() {
             let begin = Instant::now();
             let zero = spent(begin);
 
-            let stop = |i: u64| i % 16 == 0 && spent(begin) - zero >= seconds;
+            let stop = |i: u64| i.is_multiple_of(16) && spent(begin) - zero >= seconds;
             let outcome = solve(&scenario, &Options { solver, seed, stop: &stop }).unwrap();
             let elapsed = spent(begin) - zero;
 

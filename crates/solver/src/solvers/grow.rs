@@ -42,16 +42,24 @@ pub fn grow(
         outside.map(|&candidate| Place { candidate, insertion: None }).collect();
     let mut fresh = None;
     loop {
-        places.retain(|place| worth(instance, partial, place.candidate, rule) > 0.0);
+        if fresh.is_none() || !instance.demands.demands.is_empty() {
+            places.retain(|place| worth(instance, partial, place.candidate, rule) > 0.0);
+        }
         for place in &mut places {
             place.update(instance, partial, fresh);
         }
-        let must = if rule.must_first { must(instance, partial, &places) } else { Vec::new() };
+        let must = if rule.must_first && !instance.demands.demands.is_empty() {
+            must(instance, partial, &places)
+        } else {
+            Vec::new()
+        };
         let mut best: Option<(bool, f64, u32, Insertion)> = None;
         for place in &places {
             let Some(insertion) = place.insertion else { continue };
             let first = must.get(place.candidate as usize).copied().unwrap_or(false);
-            let price = insertion.effort.max(1e-9).powf(rule.power);
+            let effort = insertion.effort.max(1e-9);
+            // `powf` is dear, and most rules ask for gain per effort.
+            let price = if rule.power == 1.0 { effort } else { effort.powf(rule.power) };
             let score = noise() * worth(instance, partial, place.candidate, rule) / price;
             if best.is_none_or(|(f, s, ..)| (first, score) > (f, s)) {
                 best = Some((first, score, place.candidate, insertion));
@@ -76,6 +84,7 @@ fn worth(instance: &Instance<'_>, partial: &Partial, candidate: u32, rule: &Rule
 impl Place {
     /// After an insertion at `fresh`, the remembered place moves, is beaten by one of the two new
     /// places, or must be looked for again.
+    #[inline]
     fn update(&mut self, instance: &Instance<'_>, partial: &Partial, fresh: Option<usize>) {
         let tour = &partial.tour;
         let Some(fresh) = fresh else {

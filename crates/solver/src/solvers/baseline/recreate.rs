@@ -64,7 +64,7 @@ pub fn recreate(
 fn sort(
     instance: &Instance<'_>,
     partial: &Partial,
-    pool: &mut [u32],
+    pool: &mut Vec<u32>,
     cost: &Cost,
     by: u32,
     near: &mut Neighbours,
@@ -79,12 +79,21 @@ fn sort(
         5 => sort_down(pool, |c| cost.worth(instance, partial, c)),
         _ => {
             let noise: f64 = rng.random_range(0.0..0.5);
-            sort_down(pool, |c| {
+            let mut keyed: Vec<(f64, u32)> = Vec::with_capacity(pool.len());
+            for &c in pool.iter() {
                 let place = place(instance, partial, c, near, rng);
+                // Who has no legal place now has none later, if a detour is never a short cut.
+                if place.is_none() && instance.metric {
+                    continue;
+                }
                 let effort = place.map_or(f64::INFINITY, |place| place.effort);
                 let factor = 1.0 + noise * rng.random_range(-1.0..1.0);
-                factor * cost.worth(instance, partial, c) / effort.max(1e-9)
-            });
+                let worth = cost.worth(instance, partial, c);
+                keyed.push((factor * worth / effort.max(1e-9), c));
+            }
+            keyed.sort_by(|a, b| b.0.total_cmp(&a.0));
+            pool.clear();
+            pool.extend(keyed.iter().map(|&(_, c)| c));
         }
     }
 }

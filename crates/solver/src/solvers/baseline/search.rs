@@ -16,9 +16,14 @@ use crate::tour::Value;
 
 /// Temperature at the beginning and the end of an annealing run, in scales of the cost.
 const HEAT_OF_DISTANCE: (f64, f64) = (0.3, 0.003);
-const HEAT_OF_GAIN: (f64, f64) = (3.0, 0.01);
-/// Iterations of the first annealing run.
+const HEAT_OF_GAIN: (f64, f64) = (10.0, 0.05);
+/// Tours with more stops are annealed from a lower temperature, in proportion: an iteration changes a
+/// smaller share of them.
+const MANY_STOPS: f64 = 60.0;
+/// Iterations of the first annealing run: so many a stop, within bounds.
+const RUN_PER_STOP: u64 = 50;
 const FIRST_RUN: u64 = 1000;
+const LONGEST_FIRST_RUN: u64 = 4000;
 /// Annealing runs without a feasible tour after which the best effort is looked for instead.
 const PATIENT_RUNS: u32 = 5;
 /// Pools beyond this size are cut down to the neighbourhood of what left.
@@ -116,11 +121,13 @@ impl<'a, 'b> Search<'a, 'b> {
             Objective::MinDistance => HEAT_OF_DISTANCE,
             Objective::MaxReward | Objective::MaxCount => HEAT_OF_GAIN,
         };
-        let mut length = FIRST_RUN;
+        let stops = self.best.tour.len();
+        let hot = hot * (MANY_STOPS / stops.max(1) as f64).min(1.0);
+        let mut length = (RUN_PER_STOP * stops as u64).clamp(FIRST_RUN, LONGEST_FIRST_RUN);
         let mut improved = budget.iterations();
         for run in 1.. {
-            // Every other run spends what breaks ties sparingly, rather than what is scarce.
-            self.instance.effort = if run % 2 == 0 { self.tie } else { self.scarce };
+            // Every third run spends what breaks ties sparingly, rather than what is scarce.
+            self.instance.effort = if run % 3 == 2 { self.tie } else { self.scarce };
             self.cost.price(&self.instance, &self.best.tour);
             let mut current = self.best.clone();
             let mut trial = current.clone();
