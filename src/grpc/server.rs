@@ -54,10 +54,11 @@ impl Server {
         let (limits, stop) = (edge.limits, edge.stop.clone());
         let (reporter, health) = tonic_health::server::health_reporter();
         report(&reporter, ServingStatus::Serving).await;
-        let reflection = tonic_reflection::server::Builder::configure()
-            .register_encoded_file_descriptor_set(DESCRIPTORS)
-            .register_encoded_file_descriptor_set(tonic_health::pb::FILE_DESCRIPTOR_SET)
-            .build_v1()?;
+        let reflection = || {
+            tonic_reflection::server::Builder::configure()
+                .register_encoded_file_descriptor_set(DESCRIPTORS)
+                .register_encoded_file_descriptor_set(tonic_health::pb::FILE_DESCRIPTOR_SET)
+        };
         macro_rules! limited {
             ($server:ident) => {
                 $server::new(edge.clone())
@@ -79,7 +80,9 @@ impl Server {
             .http2_keepalive_interval(Some(KEEPALIVE))
             .http2_keepalive_timeout(Some(KEEPALIVE_ANSWER))
             .add_service(health)
-            .add_service(reflection)
+            .add_service(reflection().build_v1()?)
+            // What many clients still ask, Python's among them.
+            .add_service(reflection().build_v1alpha()?)
             .add_service(limited!(NetworkServiceServer))
             .add_service(limited!(RequestServiceServer))
             .add_service(limited!(DepartureServiceServer))

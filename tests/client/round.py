@@ -295,16 +295,17 @@ def introspection(channel, results):
     answer = health.Check(health_pb2.HealthCheckRequest(), timeout=PATIENCE)
     results.check("health says serving", answer.status == health_pb2.HealthCheckResponse.SERVING, answer)
     # The messages of reflection v1 are those of v1alpha, which the library has.
-    call = channel.stream_stream(
-        "/grpc.reflection.v1.ServerReflection/ServerReflectionInfo",
-        request_serializer=reflection_pb2.ServerReflectionRequest.SerializeToString,
-        response_deserializer=reflection_pb2.ServerReflectionResponse.FromString,
-    )
-    question = reflection_pb2.ServerReflectionRequest(list_services="")
-    answer = next(iter(call(iter([question]), timeout=PATIENCE)))
-    names = [service.name for service in answer.list_services_response.service]
-    wanted = {f"voltour.v1.{name}Service" for name in ("Network", "Request", "Departure", "Tour")}
-    results.check("reflection lists the services", wanted <= set(names), names)
+    for version in ("v1", "v1alpha"):
+        call = channel.stream_stream(
+            f"/grpc.reflection.{version}.ServerReflection/ServerReflectionInfo",
+            request_serializer=reflection_pb2.ServerReflectionRequest.SerializeToString,
+            response_deserializer=reflection_pb2.ServerReflectionResponse.FromString,
+        )
+        question = reflection_pb2.ServerReflectionRequest(list_services="")
+        answer = next(iter(call(iter([question]), timeout=PATIENCE)))
+        names = [service.name for service in answer.list_services_response.service]
+        wanted = {f"voltour.v1.{name}Service" for name in ("Network", "Request", "Departure", "Tour")}
+        results.check(f"reflection {version} lists the services", wanted <= set(names), names)
 
 
 def main():
