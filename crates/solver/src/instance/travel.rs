@@ -5,7 +5,7 @@ use crate::scenario::{Point, Scenario};
 
 /// Beyond this many candidates Euclidean distances are computed when asked: the points stay in the
 /// cache, a dense matrix would not.
-const DENSE: usize = 1000;
+const DENSE: usize = 500;
 
 /// Travel distances in metres.
 #[derive(Clone, Debug)]
