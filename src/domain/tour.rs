@@ -176,7 +176,7 @@ pub struct Contender {
     pub objective: f64,
     /// What is known of its tour.
     pub status: String,
-    /// Time that it took, where it was measured on its own.
+    /// Time that it took.
     pub elapsed_s: Option<f64>,
     /// Iterations that it did.
     pub iterations: u64,

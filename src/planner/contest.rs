@@ -1,6 +1,7 @@
 //! The contest: the solver asked for first, and the next contender whenever the independent check
 //! refuses a tour or a solver fails; at last the empty tour. What holds becomes the plan.
 
+use std::cell::RefCell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 use std::time::Duration;
@@ -11,6 +12,7 @@ use voltour_solver::check::check;
 use voltour_solver::plan::Plan;
 use voltour_solver::scenario::{Scenario, ScenarioError};
 use voltour_solver::solvers::{Options, Outcome, SolverName, empty_plan, solve};
+use voltour_solver::stop::StopRule;
 
 use super::{record, scenario};
 use crate::clock::{Clock, plus, seconds};
@@ -55,8 +57,22 @@ pub(super) struct Winner {
     pub outcome: Outcome,
     /// Time of its search.
     pub elapsed_s: f64,
+    /// Of each of several contenders, when it was done: seconds since the search began.
+    pub done_s: Vec<(String, f64)>,
     /// Why earlier contenders lost.
     pub refused: Vec<String>,
+}
+
+impl Winner {
+    /// How long a solver took: all the time where it was alone, else from when the one before was done.
+    pub fn time_of(&self, solver: &str) -> Option<f64> {
+        if self.done_s.is_empty() {
+            return Some(self.elapsed_s);
+        }
+        let own = self.done_s.iter().position(|(name, _)| name == solver)?;
+        let began_s = own.checked_sub(1).map_or(0.0, |before| self.done_s[before].1);
+        Some(self.done_s[own].1 - began_s)
+    }
 }
 
 /// Plans a batch. It computes for as long as the budget lasts: not for an async thread.
@@ -80,11 +96,14 @@ impl Contest {
             }
             let from = self.clock.now();
             let budget = if i == 0 { self.budget } else { self.budget / PART };
-            match self.attempt(scenario, contender, plus(from, budget).min(self.latest)) {
+            let until = plus(from, budget).min(self.latest);
+            let watch = Watch { contest: self, from, until, done_s: RefCell::default() };
+            match watch.attempt(scenario, contender) {
                 Ok(mut outcome) => {
                     let elapsed_s = seconds(from, self.clock.now()).max(0.0);
                     outcome.plan.elapsed_s = elapsed_s;
-                    return Ok(Winner { outcome, elapsed_s, refused });
+                    let done_s = watch.done_s.into_inner();
+                    return Ok(Winner { outcome, elapsed_s, done_s, refused });
                 }
                 Err(reason) => {
                     let name = contender.map_or("empty", SolverName::name);
@@ -99,16 +118,36 @@ impl Contest {
         }
         Err(PlanError::Refused(refused))
     }
+}
 
+/// A contender's search under the clock: ends it in time, and notes when each solver in it was done.
+struct Watch<'a> {
+    contest: &'a Contest,
+    from: Timestamp,
+    until: Timestamp,
+    done_s: RefCell<Vec<(String, f64)>>,
+}
+
+impl StopRule for Watch<'_> {
+    fn should_stop(&self, _: u64) -> bool {
+        self.contest.cancel.is_cancelled() || self.contest.clock.now() >= self.until
+    }
+
+    fn done(&self, solver: &str) {
+        let after_s = seconds(self.from, self.contest.clock.now()).max(0.0);
+        self.done_s.borrow_mut().push((solver.to_owned(), after_s));
+    }
+}
+
+impl Watch<'_> {
     /// A contender's outcome, if the check accepts its tour. A panic in a solver is a tour refused.
     fn attempt(
         &self,
         scenario: &Scenario,
         contender: Option<SolverName>,
-        until: Timestamp,
     ) -> Result<Outcome, String> {
         let run = || match contender {
-            Some(solver) => self.solve(scenario, solver, until),
+            Some(solver) => self.solve(scenario, solver),
             None => Ok(empty(empty_plan(scenario))),
         };
         let judged = || {
@@ -120,14 +159,8 @@ impl Contest {
         catch_unwind(AssertUnwindSafe(judged)).unwrap_or_else(|panic| Err(message(&*panic)))
     }
 
-    fn solve(
-        &self,
-        scenario: &Scenario,
-        solver: SolverName,
-        until: Timestamp,
-    ) -> Result<Outcome, String> {
-        let stop = |_: u64| self.cancel.is_cancelled() || self.clock.now() >= until;
-        let options = Options { solver, seed: self.seed, stop: &stop };
+    fn solve(&self, scenario: &Scenario, solver: SolverName) -> Result<Outcome, String> {
+        let options = Options { solver, seed: self.contest.seed, stop: self };
         solve(scenario, &options).map_err(|unavailable| unavailable.to_string())
     }
 }

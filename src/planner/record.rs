@@ -76,13 +76,12 @@ fn new_stop(
 }
 
 fn provenance(batch: &Batch, contest: &Contest, winner: &Winner) -> Provenance {
-    let Winner { outcome, elapsed_s, refused } = winner;
+    let Winner { outcome, refused, .. } = winner;
     let contender = |contender: &voltour_solver::solvers::Contender| Contender {
         solver: contender.solver.clone(),
         objective: contender.objective,
         status: contender.status.name().to_owned(),
-        // One contender had all the time; of several it was not measured.
-        elapsed_s: (outcome.contenders.len() == 1).then_some(*elapsed_s),
+        elapsed_s: winner.time_of(&contender.solver),
         iterations: contender.iterations,
     };
     let phase = |(phase, iterations): &(String, u64)| PhaseIterations {

@@ -73,6 +73,10 @@ async fn a_batch_becomes_a_plan_with_its_provenance() {
     assert_eq!(provenance["check"], serde_json::json!(["holds"]));
     assert_eq!(provenance["batch"].as_array().unwrap().len(), 2);
     assert!(provenance["fallback_reason"].is_null());
+    let contenders = provenance["contenders"].as_array().unwrap();
+    let took = |contender: &serde_json::Value| contender["elapsed_s"].as_f64().unwrap();
+    assert_eq!(contenders.len(), 2);
+    assert!(contenders.iter().all(|contender| took(contender) >= 0.0), "{contenders:?}");
 }
 
 #[tokio::test]

@@ -5,6 +5,9 @@
 pub trait StopRule {
     /// Whether to end now, after `iterations` whole iterations.
     fn should_stop(&self, iterations: u64) -> bool;
+
+    /// Hears that a solver is done with its part, so that a host with a clock can tell how long each took.
+    fn done(&self, _solver: &str) {}
 }
 
 /// Ends after a number of iterations: the repeatable rule.

@@ -10,7 +10,9 @@ use crate::instance::Instance;
 pub fn auto(instance: &Instance<'_>, rng: &mut Pcg64Mcg, budget: &mut Budget<'_>) -> Vec<Found> {
     let order = greedy::greedy(instance, budget);
     let iterations = vec![("greedy".to_owned(), budget.iterations())];
+    budget.done(SolverName::Greedy);
     let first = Found { order, solver: SolverName::Greedy, iterations };
     let second = baseline::solve(instance, &first.order, rng, budget);
+    budget.done(SolverName::Baseline);
     vec![first, second]
 }

@@ -1,5 +1,6 @@
 //! The iterations that a search has done and may still do.
 
+use super::SolverName;
 use crate::stop::StopRule;
 
 /// Counts iterations over all phases of a solve and asks the stop rule once after each.
@@ -22,6 +23,11 @@ impl<'a> Budget<'a> {
             self.stopped = self.stop.should_stop(self.iterations);
         }
         !self.stopped
+    }
+
+    /// Tells the rule's host that a solver is done with its part.
+    pub fn done(&self, solver: SolverName) {
+        self.stop.done(solver.name());
     }
 
     /// Whether the rule has said stop.
