@@ -194,10 +194,10 @@ fn moving(panel: &mut Panel, scene: &Scene<'_>) {
     let way =
         |class: &str| Path::new().set("class", class).set("d", format!("M{} {y}h20", x - 10.0));
     let met = Group::new().add(way("met")).add(circle([x - 8.0, y], "was", 3.0));
-    panel.entry(met, "Way of a sensor to its meeting", None);
+    panel.entry(met, "Last way of a sensor to its meeting", None);
     let [x, y] = panel.spot();
     let trail = Path::new().set("class", "trail").set("d", format!("M{} {y}h20", x - 10.0));
-    panel.entry(trail, "Way of another sensor", None);
+    panel.entry(trail, "First way of another sensor", None);
 }
 
 fn coverage(panel: &mut Panel, scene: &Scene<'_>) {

@@ -11,18 +11,20 @@ use super::view::tenth;
 
 /// Points of all trails together.
 const MOST_POINTS: usize = 60_000;
+/// The share of the tour's time that a trail shows: whole ways would bury the tour.
+const RECENT: f64 = 0.05;
 
-/// Dotted: the ways of those that are not met. Blue: the way until the meeting, and after it nothing,
-/// for what a sensor does then does not matter; strong while the charger was driving towards it.
+/// Dotted: the first ways of those that are not met. Blue: the last way to the meeting, and after it
+/// nothing, for what a sensor does then does not matter; strong while the charger was driving towards it.
 pub(super) fn trails(scene: &Scene<'_>) -> Group {
-    let until = horizon(scene.scenario, scene.plan);
+    let recent_s = RECENT * horizon(scene.scenario, scene.plan);
     let mut group = Group::new();
     let mut left = MOST_POINTS;
     for (sensor, role) in scene.sensors().take(MANY) {
         let Place::Moving(trajectory) = &sensor.place else { continue };
         group = match role {
-            Role::Stop(order) => met(group, scene, trajectory, order, &mut left),
-            _ => group.add(path("trail", way(scene, trajectory, [0.0, until], &mut left))),
+            Role::Stop(order) => met(group, scene, trajectory, (order, recent_s), &mut left),
+            _ => group.add(path("trail", way(scene, trajectory, [0.0, recent_s], &mut left))),
         };
     }
     group
@@ -32,7 +34,7 @@ fn met(
     into: Group,
     scene: &Scene<'_>,
     trajectory: &Trajectory,
-    order: usize,
+    (order, recent_s): (usize, f64),
     left: &mut usize,
 ) -> Group {
     let time =
@@ -40,8 +42,9 @@ fn met(
     let stops = &scene.plan.stops;
     let drives_s = time(order.checked_sub(1).and_then(|i| stops.get(i)), |s| s.depart_s);
     let meets_s = time(stops.get(order), |s| s.arrive_s).max(drives_s);
-    let [x, y] = scene.view.at(trajectory.at(0.0).into()).map(tenth);
-    into.add(path("met", way(scene, trajectory, [0.0, drives_s], left)))
+    let from_s = (drives_s - recent_s).max(0.0);
+    let [x, y] = scene.view.at(trajectory.at(from_s).into()).map(tenth);
+    into.add(path("met", way(scene, trajectory, [from_s, drives_s], left)))
         .add(path("last", way(scene, trajectory, [drives_s, meets_s], left)))
         .add(Circle::new().set("class", "was").set("cx", x).set("cy", y).set("r", 3))
 }
