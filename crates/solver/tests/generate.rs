@@ -187,6 +187,10 @@ fn options_are_validated_by_name() {
             Mobile { sensor_max_mps: 5.0, ..m() },
             "sensor_max_mps: 5: must be less than speed_mps, 5",
         ),
+        (
+            Mobile { timespan_s: 1e9, ..m() },
+            "timespan_s: 1000000000: must leave the trajectories fewer than some ten million rows",
+        ),
         (Mobile { alpha: 0.0, ..m() }, "alpha: 0: must be > 0"),
         (Mobile { alpha: 1.5, ..m() }, "alpha: 1.5: must be in [0, 1]"),
         (Mobile { epsilon: -0.1, ..m() }, "epsilon: -0.1: must be in [0, 1]"),

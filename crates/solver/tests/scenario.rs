@@ -53,7 +53,7 @@ fn parse(document: &Value) -> Result<Scenario, ScenarioError> {
 
 #[track_caller]
 fn accept(document: &Value) -> Scenario {
-    parse(document).unwrap_or_else(|error| panic!("{error}"))
+    parse(document).expect("a good document")
 }
 
 /// The document with the member at a pointer set; the last step may be new.
@@ -64,7 +64,7 @@ fn set(document: &Value, pointer: &str, value: Value) -> Value {
     match changed.pointer_mut(parent).expect("a parent") {
         Value::Object(members) => drop(members.insert(last.to_owned(), value)),
         Value::Array(items) => items[last.parse::<usize>().expect("an index")] = value,
-        other => panic!("{other} has no members"),
+        other => unreachable!("{other} has no members"),
     }
     changed
 }

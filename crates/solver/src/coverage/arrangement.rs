@@ -14,6 +14,8 @@ use crate::scenario::{Point, Scenario};
 const LONE_ANGLES: [f64; 3] = [0.3, 2.4, 4.5];
 /// From one probing circle to the next smaller one.
 const SHRINK: f64 = 1.0 / 16.0;
+/// Metres: the gap around a vertex below which other curves crowd it.
+const CROWDED: f64 = 1e-6;
 /// Metres: vertices nearer than this with the same curves are one.
 const CLUSTER: f64 = 1e-9;
 
@@ -31,9 +33,8 @@ pub fn regions(scenario: &Scenario) -> Vec<Region> {
         let circle = circle(&curves, i);
         for &j in near.disks.iter().filter(|&&j| j > i) {
             let other = &around[j as usize];
-            let tolerance = near.tolerance.max(other.tolerance);
             let disk = if other.disks.len() < near.disks.len() { j } else { i };
-            for vertex in circle_circle(circle, self::circle(&curves, j), tolerance) {
+            for vertex in circle_circle(circle, self::circle(&curves, j)) {
                 vertices.visit(&curves, &around, vertex, disk);
             }
         }
@@ -94,14 +95,16 @@ impl Vertices {
         }
     }
 
-    /// Probes circles of all sizes around a surveyed vertex, from the nearest curve that does not
-    /// pass through it down to where the curves through it cannot be told apart.
+    /// Probes circles of all sizes around a surveyed vertex, down to where the curves through it
+    /// cannot be told apart: from the nearest curve that does not pass through it, or from afar where
+    /// that one is so near that it may be nearly parallel.
     fn probe(&mut self, curves: &Curves, near: &Surroundings, vertex: Point) {
         let Self { faces, sectors, .. } = self;
         let smallest = CLUSTER.max(4.0 * near.tolerance);
-        let mut radius = (0.5 * sectors.gap).max(smallest / (SHRINK * SHRINK));
+        let clear = if sectors.gap > CROWDED { sectors.gap } else { near.reach };
+        let mut radius = (0.5 * clear).max(smallest);
         while radius >= smallest {
-            let found = |at, set: &[u32], depth| faces.witness(at, set, depth);
+            let found = |at, set: &[u32], depth| faces.large(at, set, depth);
             sectors.probe(curves, near, vertex, radius, found);
             radius *= SHRINK;
         }

@@ -18,7 +18,7 @@ pub(super) struct Disk {
     pub(super) sensors: Vec<u32>,
 }
 
-/// Every disk that reaches the field, ordered by its first sensor.
+/// Every disk that reaches the field, in an order that keeps neighbours together.
 pub(super) struct Disks {
     disks: Vec<Disk>,
     index: RTree<GeomWithData<Rectangle<[f64; 2]>, u32>>,
@@ -42,6 +42,8 @@ impl Disks {
             }
         }
         disks.retain(|disk| border.boxes(disk.centre, disk.range));
+        // Neighbours in the plane are handled one after the other, while their faces are in the cache.
+        disks.sort_by_cached_key(|disk| morton(disk.centre, border));
         let boxed = |(i, disk): (u32, &Disk)| {
             let (Point { coords: c }, r) = (disk.centre, disk.range);
             GeomWithData::new(Rectangle::from_corners([c.x - r, c.y - r], [c.x + r, c.y + r]), i)
@@ -73,11 +75,21 @@ impl Disks {
     pub(super) fn sensors(&self, set: &[u32]) -> Vec<u32> {
         let mut sensors = Vec::with_capacity(set.len());
         sensors.extend(set.iter().flat_map(|&disk| &self.get(disk).sensors));
-        if !sensors.is_sorted() {
-            sensors.sort_unstable();
-        }
+        sensors.sort_unstable();
         sensors
     }
+}
+
+/// The place of a point along the Z-order curve over the field.
+fn morton(point: Point, border: &Border) -> u32 {
+    const CELLS: f64 = 1024.0;
+    let cell = (point - border.low) * (CELLS / border.extent());
+    let spread = |x: f64| {
+        // The cast saturates: points beyond the field count to its edge.
+        let x = x.min(CELLS - 1.0) as u32;
+        (0..10).fold(0, |spread, bit| spread | (x >> bit & 1) << (2 * bit))
+    };
+    spread(cell.x) | spread(cell.y) << 1
 }
 
 /// Everything that the arrangement is made of.

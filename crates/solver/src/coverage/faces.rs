@@ -8,14 +8,16 @@ use nalgebra::Vector2;
 use super::Region;
 use super::disks::Curves;
 use super::sectors::Sectors;
-use super::sets::Sets;
+use super::sets::{Sets, hash};
 use super::surroundings::Surroundings;
 use crate::scenario::Point;
 
 /// Metres: faces of which every border piece is shorter are ignored.
 const LEAST_PIECE: f64 = 1e-9;
-/// From one probing circle to the next smaller one.
-const SHRINK: f64 = 1.0 / 8.0;
+/// Metres: a deeper witness ends the search; shallower ones may just have missed a border.
+const DEEP_ENOUGH: f64 = 1e-6;
+/// From one probing circle to the next.
+const STEP: f64 = 8.0;
 /// In place of a set.
 const NONE: u32 = u32::MAX;
 
@@ -31,6 +33,8 @@ struct Witness {
 struct Face {
     vertices: Vector2<f64>,
     count: u32,
+    /// Seen so far from a vertex that it cannot be a speck.
+    is_large: bool,
     witness: Option<Witness>,
 }
 
@@ -55,15 +59,18 @@ impl Faces {
     /// the touching ones.
     pub(super) fn claim(&mut self, vertex: Point, disk: u32, sectors: &Sectors) {
         let mut sets = [NONE; 4];
+        let base = hash(&sectors.covering);
         for (choice, claimed) in sets.iter_mut().enumerate().take(1 << sectors.touching.len()) {
-            let chosen = (0..).zip(&sectors.touching).filter(|(bit, _)| choice >> bit & 1 == 1);
-            self.set.clear();
-            self.set.extend_from_slice(&sectors.covering);
-            for (_, &disk) in chosen {
-                let at = self.set.partition_point(|&other| other < disk);
-                self.set.insert(at, disk);
+            self.set.clone_from(&sectors.covering);
+            let mut key = base;
+            for (bit, disk) in sectors.touching.iter().enumerate() {
+                if choice >> bit & 1 == 1 {
+                    let at = self.set.partition_point(|other| other < disk);
+                    self.set.insert(at, *disk);
+                    key = key.wrapping_add(hash(&[*disk]));
+                }
             }
-            let id = self.sets.intern(&self.set);
+            let id = self.sets.intern_hashed(&self.set, key);
             let face = self.face(id);
             face.vertices += vertex.coords;
             face.count += 1;
@@ -72,20 +79,26 @@ impl Faces {
         self.claims.push(Claim { vertex, disk, sets });
     }
 
+    /// A point that is known to have this set, its depth, and its face is no speck.
+    pub(super) fn large(&mut self, at: Point, set: &[u32], depth: f64) {
+        self.witness(at, set, depth).is_large = true;
+    }
+
     /// A point that is known to have this set, and its depth.
-    pub(super) fn witness(&mut self, at: Point, set: &[u32], depth: f64) {
+    fn witness(&mut self, at: Point, set: &[u32], depth: f64) -> &mut Face {
         let id = self.sets.intern(set);
         let face = self.face(id);
         if face.witness.is_none_or(|best| depth > best.depth) {
             face.witness = Some(Witness { at, depth });
         }
+        face
     }
 
     /// Finds a witness for every set that has one; the surroundings are those of the disks.
     pub(super) fn settle(&mut self, curves: &Curves, around: &[Surroundings]) {
         self.try_middles(curves, around);
         self.try_sectors(curves, around);
-        self.drop_specks();
+        self.drop_specks(around);
     }
 
     /// One region for each set with a witness, in the order in which the sets were found.
@@ -128,18 +141,26 @@ impl Faces {
         }
     }
 
-    /// Probes the vertices of which a claim has no witness yet, on circles that shrink.
+    /// Probes the vertices of which a claim has no good witness yet. The circles shrink from the
+    /// nearest other curve; where that is not enough, they grow beyond it, because a sliver between
+    /// nearly parallel curves is widest far from its ends.
     fn try_sectors(&mut self, curves: &Curves, around: &[Surroundings]) {
         let mut sectors = Sectors::default();
         for claim in std::mem::take(&mut self.claims) {
             let near = &around[claim.disk as usize];
             if self.is_open(&claim) {
                 sectors.survey(near, claim.vertex);
-                let mut radius = 0.5 * sectors.gap;
-                while self.is_open(&claim) && radius > near.tolerance {
-                    let found = |at, set: &[u32], depth| self.witness(at, set, depth);
+                let start = 0.5 * sectors.gap;
+                let series =
+                    |first, ratio| std::iter::successors(Some(first), move |r| Some(r * ratio));
+                let shrinking = series(start, 1.0 / STEP).take_while(|r| *r > near.tolerance);
+                let growing = series(start * STEP, STEP).take_while(|r| *r < near.reach);
+                for radius in shrinking.chain(growing) {
+                    let found = |at, set: &[u32], depth| _ = self.witness(at, set, depth);
                     sectors.probe(curves, near, claim.vertex, radius, found);
-                    radius *= SHRINK;
+                    if !self.is_open(&claim) {
+                        break;
+                    }
                 }
             }
             self.claims.push(claim);
@@ -147,31 +168,55 @@ impl Faces {
     }
 
     fn is_open(&self, claim: &Claim) -> bool {
-        let open = |&id: &u32| id != NONE && self.faces[id as usize].witness.is_none();
-        claim.sets.iter().any(open)
+        let shallow = |face: &Face| face.witness.is_none_or(|witness| witness.depth < DEEP_ENOUGH);
+        claim.sets.iter().any(|&id| id != NONE && shallow(&self.faces[id as usize]))
     }
 
-    /// Takes back the sets whose vertices all lie within the least border piece of each other.
-    fn drop_specks(&mut self) {
+    /// Takes back the sets of which every border piece is too short to count.
+    fn drop_specks(&mut self, around: &[Surroundings]) {
         let shallow = |face: &Face| face.witness.is_some_and(|w| w.depth < LEAST_PIECE);
-        let suspects = (0..).zip(&self.faces).filter(|(_, face)| face.count > 0 && shallow(face));
-        let mut spread: BTreeMap<u32, Option<(Point, Point)>> =
-            suspects.map(|(id, _)| (id, None)).collect();
-        if spread.is_empty() {
+        let suspects = (0..).zip(&self.faces).filter(|(_, face)| !face.is_large && shallow(face));
+        let mut corners: BTreeMap<u32, Vec<Corner>> =
+            suspects.map(|(id, _)| (id, vec![])).collect();
+        if corners.is_empty() {
             return;
         }
+        let mut sectors = Sectors::default();
         for claim in &self.claims {
             for id in &claim.sets {
-                if let Some(spread) = spread.get_mut(id) {
-                    let (low, high) = spread.unwrap_or((claim.vertex, claim.vertex));
-                    *spread = Some((low.inf(&claim.vertex), high.sup(&claim.vertex)));
+                if let Some(corners) = corners.get_mut(id) {
+                    sectors.survey(&around[claim.disk as usize], claim.vertex);
+                    corners.push(Corner {
+                        vertex: claim.vertex,
+                        circles: sectors.touching.clone(),
+                        on_edge: sectors.edges > 0,
+                    });
                 }
             }
         }
-        for (id, spread) in spread {
-            if spread.is_some_and(|(low, high)| (high - low).norm() < LEAST_PIECE) {
+        for (id, corners) in corners {
+            if longest_piece(&corners) < LEAST_PIECE {
                 self.faces[id as usize].witness = None;
             }
         }
     }
+}
+
+/// A vertex of a face that may be a speck, and the curves that meet there.
+struct Corner {
+    vertex: Point,
+    circles: Vec<u32>,
+    on_edge: bool,
+}
+
+/// The longest way between two corners on a common curve. In a speck every curve has one piece, and
+/// it is as good as straight.
+fn longest_piece(corners: &[Corner]) -> f64 {
+    let share = |a: &Corner, b: &Corner| {
+        (a.on_edge && b.on_edge) || a.circles.iter().any(|circle| b.circles.contains(circle))
+    };
+    let pairs =
+        corners.iter().enumerate().flat_map(|(i, a)| corners[..i].iter().map(move |b| (a, b)));
+    let lengths = pairs.filter(|(a, b)| share(a, b)).map(|(a, b)| (a.vertex - b.vertex).norm());
+    lengths.fold(0.0, f64::max)
 }

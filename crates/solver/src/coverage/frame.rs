@@ -21,6 +21,11 @@ impl Frame {
         Self { origin }
     }
 
+    /// The larger of the coordinates of the origin.
+    pub(super) fn distance(&self) -> f64 {
+        self.origin[0].abs().max(self.origin[1].abs())
+    }
+
     pub(super) fn local(&self, world: Point) -> Point {
         Point::new(world.x - self.origin[0], world.y - self.origin[1])
     }

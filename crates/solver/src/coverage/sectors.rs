@@ -30,18 +30,20 @@ impl Sectors {
     /// Sorts the curves near a vertex into those that contain it, pass through it, or neither.
     pub(super) fn survey(&mut self, near: &Surroundings, vertex: Point) {
         near.offsets(vertex, &mut self.offsets);
-        self.covering.clear();
+        near.covering(&self.offsets, &mut self.covering);
         self.touching.clear();
         self.edges = 0;
         self.gap = near.reach;
         for (i, &offset) in self.offsets.iter().enumerate() {
             if offset.abs() <= near.tolerance_of(i) {
                 self.touching.push(near.disks[i]);
-                continue;
+            } else {
+                self.gap = self.gap.min(offset.abs());
             }
-            self.gap = self.gap.min(offset.abs());
-            if offset < 0.0 {
-                self.covering.push(near.disks[i]);
+        }
+        for disk in &self.touching {
+            if let Ok(at) = self.covering.binary_search(disk) {
+                self.covering.remove(at);
             }
         }
         for edge in &near.edges {

@@ -27,7 +27,12 @@ impl Sets {
 
     /// The id of a set given by its rising elements, new or known.
     pub(super) fn intern(&mut self, set: &[u32]) -> u32 {
-        let mut key = hash(set);
+        self.intern_hashed(set, hash(set))
+    }
+
+    /// The same for whoever knows the set's [`hash`] already.
+    pub(super) fn intern_hashed(&mut self, set: &[u32], hash: u64) -> u32 {
+        let mut key = hash;
         loop {
             match self.index.entry(key) {
                 Entry::Vacant(free) => {
@@ -49,9 +54,9 @@ impl Sets {
     }
 }
 
-/// A sum over the elements, so that the multiplications do not wait for each other.
-fn hash(set: &[u32]) -> u64 {
-    set.iter().map(|&element| mix(u64::from(element))).fold(set.len() as u64, u64::wrapping_add)
+/// The sum of the elements' hashes: the hash of a set follows from those of its parts.
+pub(super) fn hash(set: &[u32]) -> u64 {
+    set.iter().map(|&element| mix(u64::from(element))).fold(0, u64::wrapping_add)
 }
 
 /// The finaliser of SplitMix64.

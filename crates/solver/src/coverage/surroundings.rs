@@ -13,7 +13,7 @@ const DRIFT: f64 = 1e-14;
 /// below the 1e-9 m of the format, so that no face that counts is merged away.
 const LEAST_TOLERANCE: f64 = 1e-11;
 /// How far the surroundings of a disk reach past it, relative to its range.
-const REACH: f64 = 0.1;
+const REACH: f64 = 0.04;
 
 /// The curves that may lie within `reach` of a part of the plane.
 pub(super) struct Surroundings {
@@ -27,7 +27,7 @@ pub(super) struct Surroundings {
     pub(super) reach: f64,
     /// Within it a curve counts as passing through a vertex.
     pub(super) tolerance: f64,
-    /// Rounding of the distance to an edge, and of moving into the frame.
+    /// Rounding of the distance to an edge, here and for whoever computes it in world coordinates.
     margin: f64,
     /// Where no edge is near: whether this part lies inside the field.
     inside: bool,
@@ -44,7 +44,7 @@ impl Surroundings {
     }
 
     fn new(curves: &Curves, centre: Point, range: f64, reach: f64) -> Self {
-        let Curves { border, disks, .. } = curves;
+        let Curves { frame, border, disks } = curves;
         let near = disks.near(centre, range + reach);
         let take = |part: fn(Point, f64) -> f64| -> Vec<f64> {
             let disks = near.iter().map(|&i| disks.get(i));
@@ -60,7 +60,7 @@ impl Surroundings {
             edges,
             reach,
             tolerance: LEAST_TOLERANCE.max(DRIFT * (border.scale() + range)),
-            margin: ROUNDING * border.extent(),
+            margin: ROUNDING * border.extent().max(0.25 * frame.distance()),
             inside,
         }
     }
@@ -73,6 +73,19 @@ impl Surroundings {
             let (dx, dy) = (point.x - x, point.y - y);
             (dx * dx + dy * dy).sqrt() - range
         }));
+    }
+
+    /// Writes the disks that cover a point with these offsets.
+    pub(super) fn covering(&self, offsets: &[f64], set: &mut Vec<u32>) {
+        // Every disk is written, the ones outside to be overwritten: a branch that nobody can
+        // predict would cost more.
+        set.resize(self.disks.len() + 1, 0);
+        let mut len = 0;
+        for (&offset, &disk) in offsets.iter().zip(&self.disks) {
+            set[len] = disk;
+            len += usize::from(offset <= 0.0);
+        }
+        set.truncate(len);
     }
 
     /// Within it, the offset of a vertex from the `i`-th disk cannot be told from zero.
@@ -96,16 +109,13 @@ impl Surroundings {
     ) -> Option<f64> {
         self.offsets(point, offsets);
         let mut depth = self.reach;
-        set.clear();
-        for ((&offset, &disk), &range) in offsets.iter().zip(&self.disks).zip(&self.range) {
+        for (&offset, &range) in offsets.iter().zip(&self.range) {
             if offset.abs() <= ROUNDING * range {
                 return None;
             }
             depth = depth.min(offset.abs());
-            if offset <= 0.0 {
-                set.push(disk);
-            }
         }
+        self.covering(offsets, set);
         for edge in &self.edges {
             depth = depth.min(edge.distance(point));
         }

@@ -6,7 +6,9 @@ use crate::scenario::{
 
 use super::GenerateError;
 use super::draw::{Draw, round};
-use super::options::{at_most, below, count, id, not_negative, positive, sensor_at, share, side};
+use super::options::{
+    at_most, below, count, id, not_negative, option, positive, sensor_at, share, side,
+};
 
 /// Options of [`mobile`]; the defaults are the paper's.
 #[derive(Clone, Debug, PartialEq)]
@@ -128,8 +130,8 @@ fn random_way_points(options: &Mobile, draw: &mut Draw) -> Vec<[f64; 3]> {
 }
 
 fn validate(options: &Mobile) -> Result<(), GenerateError> {
-    /// Mean length of a leg in a unit square is 0.52: this bounds the rows of a trajectory.
-    const MOST_SIDES: f64 = 100_000.0;
+    /// Sides of the field that all sensors together may travel; a leg is half a side on average.
+    const MOST_SIDES: f64 = 10_000_000.0;
     count("sensors", options.sensors)?;
     side("side_m", options.side_m)?;
     positive("timespan_s", options.timespan_s)?;
@@ -138,8 +140,9 @@ fn validate(options: &Mobile) -> Result<(), GenerateError> {
     at_most("sensor_min_mps", options.sensor_min_mps, "sensor_max_mps", options.sensor_max_mps)?;
     positive("speed_mps", options.speed_mps)?;
     below("sensor_max_mps", options.sensor_max_mps, "speed_mps", options.speed_mps)?;
-    let sides = options.timespan_s * options.sensor_max_mps / options.side_m;
-    at_most("timespan_s", sides, "this many sides of the field travelled", MOST_SIDES)?;
+    let metres = f64::from(options.sensors) * options.sensor_max_mps * options.timespan_s;
+    let rule = "must leave the trajectories fewer than some ten million rows";
+    option("timespan_s", options.timespan_s, rule, metres <= MOST_SIDES * options.side_m)?;
     positive("alpha", options.alpha)?;
     share("alpha", options.alpha)?;
     share("epsilon", options.epsilon)?;

@@ -6,7 +6,8 @@ use super::GenerateError;
 
 type Valid = Result<(), GenerateError>;
 
-fn option(name: &'static str, value: f64, rule: &str, holds: bool) -> Valid {
+/// The rule that an option must hold.
+pub(super) fn option(name: &'static str, value: f64, rule: &str, holds: bool) -> Valid {
     let error = || GenerateError::Option { name, value, rule: rule.to_owned() };
     holds.then_some(()).ok_or_else(error)
 }

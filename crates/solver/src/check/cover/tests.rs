@@ -143,3 +143,35 @@ proptest! {
         }
     }
 }
+
+/// The two independent computations of coverage against each other.
+fn agrees_with_the_arrangement(field: &[[f64; 2]], disks: &[(f64, f64, f64)]) {
+    let scenario = scenario(field, disks);
+    let walked = all_sets(&scenario);
+    let regions = crate::coverage::regions(&scenario);
+    for region in &regions {
+        assert!(walked.contains_key(&region.covering), "not walked: {region:?} of {disks:?}");
+    }
+    for (set, _) in walked.iter().filter(|(_, witness)| witness.is_some()) {
+        assert!(regions.iter().any(|r| r.covering == *set), "no region: {set:?} of {disks:?}");
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(200))]
+
+    #[test]
+    fn random_disks_two_ways(
+        disks in prop::collection::vec((-1.0..11.0f64, -1.0..11.0f64, 0.3..5.0f64), 0..25),
+    ) {
+        agrees_with_the_arrangement(&SQUARE, &disks);
+        agrees_with_the_arrangement(&ELL, &disks);
+    }
+
+    #[test]
+    fn lattice_disks_two_ways(disks in prop::collection::vec((0..20u8, 0..20u8, 1..8u8), 0..20)) {
+        let half = |n: u8| f64::from(n) / 2.0;
+        let disks: Vec<_> = disks.iter().map(|&(x, y, r)| (half(x), half(y), half(r))).collect();
+        agrees_with_the_arrangement(&SQUARE, &disks);
+    }
+}
