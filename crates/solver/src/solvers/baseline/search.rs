@@ -15,7 +15,7 @@ use crate::solvers::{Budget, SolverName, enumerate, greedy, shortcut};
 use crate::tour::Value;
 
 /// Temperature at the beginning and the end of an annealing run, in scales of the cost.
-const HEAT_OF_DISTANCE: (f64, f64) = (0.3, 0.003);
+const HEAT_OF_DISTANCE: (f64, f64) = (1.5, 0.01);
 const HEAT_OF_GAIN: (f64, f64) = (10.0, 0.05);
 /// Tours with more stops are annealed from a lower temperature, in proportion: an iteration changes a
 /// smaller share of them.
