@@ -6,9 +6,11 @@
 mod descend;
 mod neighbours;
 mod or_opt;
+mod repair;
 mod splice;
 mod two_opt;
 
 pub use descend::descend;
 pub use neighbours::Neighbours;
+pub use repair::squeeze;
 pub use splice::effort;

@@ -7,7 +7,7 @@ use super::cost::Cost;
 use super::recreate::recreate;
 use super::ruin::ruin;
 use crate::instance::{Effort, Instance};
-use crate::local_search::{Neighbours, descend};
+use crate::local_search::{Neighbours, descend, squeeze};
 use crate::scenario::Objective;
 use crate::solvers::entry::Found;
 use crate::solvers::partial::{Partial, gain};
@@ -30,6 +30,8 @@ const PATIENT_RUNS: u32 = 5;
 const WIDE_POOL: usize = 100;
 /// Tours longer than this are improved by local search in every iteration.
 const LONG: usize = 40;
+/// A demand that no legal insertion meets has its deadlines repaired this often.
+const REPAIR: f64 = 0.05;
 
 /// The best tour found until the budget ends or the search stagnates. `start` is a legal tour to
 /// begin with; it may be empty.
@@ -174,6 +176,12 @@ impl<'a, 'b> Search<'a, 'b> {
         trial.remove(&self.instance, |c| leaves[c as usize]);
         let mut pool = self.pool(&removed);
         recreate(&self.instance, trial, &mut pool, &self.cost, &mut self.near, self.rng);
+        if !self.instance.untimed
+            && trial.missing(&self.instance) > 0
+            && self.rng.random_bool(REPAIR)
+        {
+            self.repair(trial);
+        }
         if self.instance.scenario.objective == Objective::MinDistance {
             self.prune(trial);
         }
@@ -182,6 +190,27 @@ impl<'a, 'b> Search<'a, 'b> {
             dirty.extend(pool);
             dirty.retain(|&c| trial.tour.serves(c));
             descend(&self.instance, &mut trial.tour, &mut self.near, &mut dirty, 100);
+        }
+    }
+
+    /// Brings in, by repair of the deadlines, one of those that open demands ask for the most.
+    fn repair(&mut self, trial: &mut Partial) {
+        let (instance, weight) = (&self.instance, &self.cost.weight);
+        let mut asked: Option<(f64, u32)> = None;
+        for &candidate in self.useful.iter().filter(|&&c| !trial.tour.serves(c)) {
+            let relief = trial.relief(instance, candidate, weight);
+            let drawn = relief * self.rng.random_range(0.5..1.0);
+            if relief > 0.0 && asked.is_none_or(|(most, _)| drawn > most) {
+                asked = Some((drawn, candidate));
+            }
+        }
+        let Some((_, newcomer)) = asked else { return };
+        if let Some(order) = squeeze(instance, trial.tour.order(), newcomer) {
+            let repaired = Partial::new(instance, &order);
+            // The order keeps all times; the energy that it takes may still be too much.
+            if repaired.tour.is_legal() {
+                *trial = repaired;
+            }
         }
     }
 
