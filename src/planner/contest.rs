@@ -1,7 +1,7 @@
 //! The contest: the solver asked for first, and the next contender whenever the independent check
 //! refuses a tour or a solver fails; at last the empty tour. What holds becomes the plan.
 
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 use std::time::Duration;
@@ -96,8 +96,13 @@ impl Contest {
             }
             let from = self.clock.now();
             let budget = if i == 0 { self.budget } else { self.budget / PART };
-            let until = plus(from, budget).min(self.latest);
-            let watch = Watch { contest: self, from, until, done_s: RefCell::default() };
+            let watch = Watch {
+                contest: self,
+                budget,
+                from,
+                until: Cell::new(None),
+                done_s: RefCell::default(),
+            };
             match watch.attempt(scenario, contender) {
                 Ok(mut outcome) => {
                     let elapsed_s = seconds(from, self.clock.now()).max(0.0);
@@ -123,14 +128,22 @@ impl Contest {
 /// A contender's search under the clock: ends it in time, and notes when each solver in it was done.
 struct Watch<'a> {
     contest: &'a Contest,
+    budget: Duration,
     from: Timestamp,
-    until: Timestamp,
+    /// When the search ends; set when it begins, for compiling a large scenario is no part of it.
+    until: Cell<Option<Timestamp>>,
     done_s: RefCell<Vec<(String, f64)>>,
 }
 
 impl StopRule for Watch<'_> {
     fn should_stop(&self, _: u64) -> bool {
-        self.contest.cancel.is_cancelled() || self.contest.clock.now() >= self.until
+        let now = self.contest.clock.now();
+        let until = self.until.get().unwrap_or_else(|| {
+            let until = plus(now, self.budget).min(self.contest.latest);
+            self.until.set(Some(until));
+            until
+        });
+        self.contest.cancel.is_cancelled() || now >= until
     }
 
     fn done(&self, solver: &str) {

@@ -8,7 +8,7 @@ use tokio::sync::Semaphore;
 use tokio_util::sync::CancellationToken;
 
 use super::Settings;
-use crate::clock::{Clock, minus};
+use crate::clock::{Clock, minus, seconds};
 use crate::domain::{Call, CancelDeparture, ClientId, DepartureId, Refusal};
 use crate::planner::{self, Contest, PlanError};
 use crate::store::{Batch, Cancel, CloseBatch, Closing, StorePlan, Storing, Writer};
@@ -41,13 +41,13 @@ pub(super) enum Stuck {
 impl Departing {
     /// Takes a departure as far as it goes now.
     pub async fn depart(&self, id: DepartureId) -> Result<(), Stuck> {
-        let Settings { mut budget, mut lead, .. } = self.settings;
+        let mut lead = self.settings.lead;
         loop {
             // A thread first: a closed batch has no time to wait for one.
             let Some(_thread) = self.thread().await else { return Ok(()) };
             let Some(batch) = self.close(id, lead).await? else { return Ok(()) };
-            let start = batch.start;
-            let plan = match self.plan(*batch, budget, lead).await {
+            let (start, closed) = (batch.start, self.clock.now());
+            let plan = match self.plan(*batch, lead).await {
                 Err(Stuck::Plan(error)) => return self.give_up(id, &error).await,
                 plan => plan?,
             };
@@ -59,9 +59,9 @@ impl Departing {
                 Storing::Gone => return Ok(()),
                 Storing::Late => {
                     tracing::warn!(departure = %id, %start, "the plan came after its second 0");
-                    // The batch is larger than the lead was meant for: search less, begin earlier.
-                    budget /= 2;
-                    lead *= 2;
+                    // The batch is larger than the lead was meant for.
+                    let took = Duration::try_from_secs_f64(seconds(closed, self.clock.now()));
+                    lead = 2 * lead.max(took.unwrap_or_default()).min(self.settings.max_late);
                 }
             }
         }
@@ -93,12 +93,8 @@ impl Departing {
         }
     }
 
-    async fn plan(
-        &self,
-        batch: Batch,
-        budget: Duration,
-        lead: Duration,
-    ) -> Result<crate::store::NewPlan, Stuck> {
+    async fn plan(&self, batch: Batch, lead: Duration) -> Result<crate::store::NewPlan, Stuck> {
+        let budget = self.settings.budget;
         // A lead that is hardly longer than the budget must not end the search before it begins.
         let spare = lead.saturating_sub(budget);
         let contest = Contest {
