@@ -3,11 +3,14 @@
 use std::sync::Arc;
 use std::time::Duration;
 
+use jiff::Timestamp;
+use tokio::sync::Semaphore;
 use tokio::time::timeout;
 use tokio_util::sync::CancellationToken;
 
+use super::departing::Departing;
 use super::{Handle, Running, Settings, start};
-use crate::clock::{Clock, ManualClock, plus};
+use crate::clock::{Clock, ManualClock, Sleep, plus, seconds};
 use crate::domain::{
     ChargerId, Departure, DepartureId, DepartureState, NetworkId, Refusal, RequestState, Tour,
     TourState,
@@ -205,4 +208,41 @@ async fn the_end_refuses_and_ends_whoever_waits() {
     service.running.finished().await.unwrap();
     let late = service.handle.submit(call("r", asks("s1"))).await;
     assert!(matches!(late, Err(Refusal::Unavailable(_))), "{late:?}");
+}
+
+/// A clock on which a second passes with every look of the planner.
+#[derive(Debug)]
+struct Slow(Arc<ManualClock>);
+
+impl Clock for Slow {
+    fn now(&self) -> Timestamp {
+        self.0.advance(Duration::from_secs(1));
+        self.0.now()
+    }
+
+    fn sleep_until(&self, time: Timestamp) -> Sleep<'_> {
+        self.0.sleep_until(time)
+    }
+}
+
+#[tokio::test]
+async fn a_plan_that_comes_late_is_made_again_with_the_lead_that_it_took() {
+    let bench = Bench::new().await;
+    bench.submit("s1").await;
+    let id = bench.announce("c").await;
+    let (_dir, clock, store) = bench.parts();
+    let departing = Departing {
+        writer: store.writer.clone(),
+        clock: Arc::new(Slow(clock.clone())),
+        settings: Settings { budget: Duration::ZERO, ..Settings::default() },
+        planners: Arc::new(Semaphore::new(1)),
+        cancel: CancellationToken::new(),
+    };
+    timeout(Duration::from_secs(20), departing.depart(id)).await.unwrap().unwrap();
+    let departure = store.reads.departure(id).await.unwrap().unwrap();
+    assert_eq!(departure.state, DepartureState::Planned);
+    // It was closed again, and second 0 had not passed when the plan was stored.
+    let lead = seconds(departure.closes_at, departure.start.unwrap());
+    assert!(lead > Settings::default().lead.as_secs_f64(), "{lead}");
+    assert!(departure.start.unwrap() >= clock.now());
 }
