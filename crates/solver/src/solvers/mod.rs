@@ -8,6 +8,7 @@ mod baseline;
 mod budget;
 mod entry;
 mod enumerate;
+pub mod exact;
 mod greedy;
 mod grow;
 mod name;
