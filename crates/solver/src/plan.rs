@@ -1,6 +1,6 @@
 //! The plan document: the answer to one scenario, exactly the fields of the format and no others.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::scenario::{Reader, ScenarioError, parse_json};
 
@@ -43,7 +43,7 @@ pub struct Plan {
 }
 
 /// What is known of a plan's tour.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Status {
     /// Feasible, and the bound proves the objective.
@@ -104,7 +104,7 @@ pub struct Unserved {
 }
 
 /// Why a request is not a stop: the first that holds, in this order.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Reason {
     /// Its residual energy is at the charge level already.

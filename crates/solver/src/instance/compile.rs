@@ -58,29 +58,67 @@ pub struct Instance<'a> {
 impl<'a> Instance<'a> {
     /// Compiles a scenario.
     pub fn new(scenario: &'a Scenario) -> Self {
+        let candidates = Self::asking(scenario);
+        let regions = coverage::regions(scenario);
+        let demands = DemandSet::reduced(scenario, &regions, &candidates);
+        let all_demands = DemandSet::complete(scenario, &regions, &candidates);
+        Self::compile(scenario, candidates, regions, demands, all_demands)
+    }
+
+    /// Compiles a scenario with these demands in place of those that its coverage makes: for a question of
+    /// feasibility alone, asked many times with some of the demands. Candidates that neither a demand
+    /// nor `required` names are left out wherever doing without a stop never breaks a limit, so that a
+    /// local question is a small one; there are no regions.
+    pub fn with_demands(scenario: &'a Scenario, demands: &[coverage::Demand]) -> Self {
+        let mut candidates = Self::asking(scenario);
+        let mut named: Vec<bool> = scenario.requests.iter().map(|r| r.required).collect();
+        demands.iter().flat_map(|d| &d.members).for_each(|&r| named[r as usize] = true);
+        let named = |c: &Candidate| named[c.request];
+        // A faster charger is never later for leaving a stop out; but where it meets a moving sensor
+        // earlier, its way may be longer, and only energy counts metres.
+        let chases = candidates.iter().any(|c| named(c) && Self::moves(scenario, c));
+        if scenario.travel.is_none() && !(chases && scenario.charger.capacity_j.is_some()) {
+            candidates.retain(named);
+        }
+        let set = DemandSet::over_requests(scenario, demands, &candidates);
+        Self::compile(scenario, candidates, Vec::new(), set.clone(), set)
+    }
+
+    /// The requests that are not already charged.
+    fn asking(scenario: &Scenario) -> Vec<Candidate> {
         let asking = scenario.requests.iter().enumerate();
-        let candidates: Vec<Candidate> = asking
+        asking
             .filter(|(_, request)| !scenario.already_charged(request))
             .map(|(index, request)| Candidate::new(scenario, index, request))
-            .collect();
+            .collect()
+    }
+
+    fn moves(scenario: &Scenario, candidate: &Candidate) -> bool {
+        let sensor = scenario.requests[candidate.request].sensor;
+        matches!(scenario.sensors[sensor].place, Place::Moving(_))
+    }
+
+    fn compile(
+        scenario: &'a Scenario,
+        candidates: Vec<Candidate>,
+        regions: Vec<Region>,
+        demands: DemandSet,
+        all_demands: DemandSet,
+    ) -> Self {
         let charger = &scenario.charger;
-        let moves = |c: &Candidate| {
-            matches!(scenario.sensors[scenario.requests[c.request].sensor].place, Place::Moving(_))
-        };
-        let moving = candidates.iter().any(moves);
+        let moving = candidates.iter().any(|c| Self::moves(scenario, c));
         let timespan_s = charger.timespan_s.map_or(f64::INFINITY, solver_limit);
         let drains = candidates.iter().any(|c| c.drain_w > 0.0);
         let waits = candidates.iter().any(|c| c.ready_s > 0.0);
         // Within the tolerance of its deadline a sensor may just have run empty: that is no break point.
         let saturates = |c: &Candidate| c.due_s.min(timespan_s) > solver_limit(c.empty_s());
         let affine_energy = charger.capacity_j.is_none() || !drains || !waits;
-        let regions = coverage::regions(scenario);
         let travel = Travel::new(scenario, &candidates);
         Self {
             symmetric: scenario.travel.is_none() || travel.is_symmetric(),
             travel: Arc::new(travel),
-            demands: DemandSet::reduced(scenario, &regions, &candidates),
-            all_demands: DemandSet::complete(scenario, &regions, &candidates),
+            demands,
+            all_demands,
             regions,
             timespan_s,
             capacity_j: charger.capacity_j.map_or(f64::INFINITY, solver_limit),

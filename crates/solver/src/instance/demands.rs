@@ -39,11 +39,20 @@ impl DemandSet {
         regions: &[Region],
         candidates: &[Candidate],
     ) -> Self {
+        Self::over_requests(scenario, &coverage::demands(scenario, regions), candidates)
+    }
+
+    /// These demands of coverage, whose members are requests, and the `required` ones.
+    pub(super) fn over_requests(
+        scenario: &Scenario,
+        demands: &[coverage::Demand],
+        candidates: &[Candidate],
+    ) -> Self {
         let mut by_request = vec![None; scenario.requests.len()];
         for (i, candidate) in candidates.iter().enumerate() {
             by_request[candidate.request] = Some(i as u32);
         }
-        let covers = coverage::demands(scenario, regions).into_iter().map(|demand| Demand {
+        let covers = demands.iter().map(|demand| Demand {
             members: demand.members.iter().filter_map(|&r| by_request[r as usize]).collect(),
             needs: demand.needs,
             sets: 1,
