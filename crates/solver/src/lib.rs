@@ -34,6 +34,7 @@
 
 pub mod check;
 pub mod coverage;
+pub mod explain;
 pub mod generate;
 pub mod instance;
 pub mod local_search;
