@@ -5,7 +5,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-use super::{check, generate, operator, serve, solve};
+use super::{check, explain, generate, operator, serve, solve};
 
 /// Plans the tours of mobile chargers in wireless rechargeable sensor networks.
 #[derive(Debug, Parser)]
@@ -42,6 +42,8 @@ pub enum Command {
     Solve(solve::Args),
     /// Check a plan against its scenario, independently of the solver
     Check(check::Args),
+    /// Say why a plan is as it is: what contradicts what, who is not served and why, what a change would buy
+    Explain(explain::Args),
     /// Draw a random scenario
     Generate(generate::Args),
     /// Run the scheduling service, or its demonstration
@@ -56,6 +58,7 @@ pub fn run(cli: Cli) -> ExitCode {
     let done = match cli.command {
         Command::Solve(args) => solve::run(args),
         Command::Check(args) => check::run(args),
+        Command::Explain(args) => explain::run(args),
         Command::Generate(args) => generate::run(args),
         Command::Serve(args) => serve::run(args),
         Command::Operator(command) => operator::run(command),

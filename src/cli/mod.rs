@@ -4,6 +4,7 @@
 pub mod check;
 mod command;
 mod documents;
+pub mod explain;
 pub mod failure;
 pub mod generate;
 mod input;

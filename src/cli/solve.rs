@@ -9,6 +9,7 @@ use voltour_solver::check::check;
 use voltour_solver::plan::Plan;
 use voltour_solver::scenario::Scenario;
 use voltour_solver::solvers::{self, Options, SolverName};
+use voltour_solver::stop::StopRule;
 
 use super::stopwatch::Stopwatch;
 use super::{Failure, documents, pretty};
@@ -61,12 +62,16 @@ pub struct Args {
 
 /// Runs the command.
 pub fn run(args: Args) -> Result<ExitCode, Failure> {
-    let solver = solver(&args)?;
+    let solver = solver(&args.solver)?;
+    if let Some(path) = &args.model {
+        return Err(no_model(path, solver));
+    }
     if let Some(svg) = args.svg.as_deref().filter(|svg| documents::is_standard(svg)) {
         return Err(Failure::input(format!("--svg {}: must be a file", svg.display())));
     }
+    let limits = Limits::new(args.time_limit, args.iterations, DEFAULT_LIMIT);
     let scenario = documents::scenario(&args.scenario)?;
-    let plan = plan(&scenario, solver, &args)?;
+    let plan = Planning { solver, seed: args.seed, limits }.plan(&scenario)?;
     // The picture first: where it cannot be written, there is no plan on standard output either.
     if let Some(path) = &args.svg {
         documents::write(Some(path), &svg::picture(&scenario, &plan))?;
@@ -75,15 +80,12 @@ pub fn run(args: Args) -> Result<ExitCode, Failure> {
     Ok(if plan.status.is_feasible() { ExitCode::SUCCESS } else { ExitCode::from(1) })
 }
 
-fn solver(args: &Args) -> Result<SolverName, Failure> {
-    let solver: SolverName = args.solver.parse().map_err(|error| {
+/// The solver of that name.
+pub(super) fn solver(name: &str) -> Result<SolverName, Failure> {
+    name.parse().map_err(|error| {
         let known = SolverName::ALL.map(SolverName::name).join(", ");
         Failure::input(format!("--solver: {error}; known: {known}"))
-    })?;
-    match &args.model {
-        Some(path) => Err(no_model(path, solver)),
-        None => Ok(solver),
-    }
+    })
 }
 
 fn no_model(path: &Path, solver: SolverName) -> Failure {
@@ -94,22 +96,25 @@ fn no_model(path: &Path, solver: SolverName) -> Failure {
     Failure::input(format!("--model {:?}: {why}", path.display().to_string()))
 }
 
-/// Solves and checks.
-fn plan(scenario: &Scenario, solver: SolverName, args: &Args) -> Result<Plan, Failure> {
-    let limit = match (args.time_limit, args.iterations) {
-        (None, None) => Some(DEFAULT_LIMIT),
-        (limit, _) => limit,
-    };
-    let watch = Stopwatch::start();
-    let stop = |iterations: u64| {
-        args.iterations.is_some_and(|most| iterations >= most)
-            || limit.is_some_and(|limit| watch.elapsed() >= limit)
-    };
-    let solved = solvers::solve(scenario, &Options { solver, seed: args.seed, stop: &stop });
-    let mut plan = solved.map_err(|error| Failure::input(format!("--solver: {error}")))?.plan;
-    plan.elapsed_s = watch.elapsed().as_secs_f64();
-    let broken = check(scenario, &plan);
-    if broken.is_empty() { Ok(plan) } else { Err(refused(&plan.solver, &broken)) }
+/// How to plan.
+pub(super) struct Planning {
+    pub solver: SolverName,
+    pub seed: u64,
+    pub limits: Limits,
+}
+
+impl Planning {
+    /// Solves and checks.
+    pub fn plan(self, scenario: &Scenario) -> Result<Plan, Failure> {
+        let Self { solver, seed, limits } = self;
+        let watch = Stopwatch::start();
+        let solved =
+            limits.within(|stop| solvers::solve(scenario, &Options { solver, seed, stop }));
+        let mut plan = solved.map_err(|error| Failure::input(format!("--solver: {error}")))?.plan;
+        plan.elapsed_s = watch.elapsed().as_secs_f64();
+        let broken = check(scenario, &plan);
+        if broken.is_empty() { Ok(plan) } else { Err(refused(&plan.solver, &broken)) }
+    }
 }
 
 /// A plan that does not hold is never shown: it is a defect of the solver or of the checker.
@@ -121,8 +126,41 @@ fn refused(solver: &str, broken: &[impl std::fmt::Display]) -> Failure {
     Failure { code: documents::BROKEN, lines: std::iter::once(first).chain(rules).collect() }
 }
 
+/// When to stop: by the clock, by iterations, or by whichever comes first.
+#[derive(Clone, Copy)]
+pub(super) struct Limits {
+    time: Option<Duration>,
+    iterations: Option<u64>,
+}
+
+impl Limits {
+    /// What the arguments say, or the time that holds where they say nothing.
+    pub fn new(time: Option<Duration>, iterations: Option<u64>, default: Duration) -> Self {
+        Self { time: time.or_else(|| iterations.is_none().then_some(default)), iterations }
+    }
+
+    /// One of so many equal shares of the time.
+    pub fn share(self, of: u32) -> Self {
+        Self { time: self.time.map(|time| time / of), ..self }
+    }
+
+    /// What is left after some time.
+    pub fn after(self, spent: Duration) -> Self {
+        Self { time: self.time.map(|time| time.saturating_sub(spent)), ..self }
+    }
+
+    /// Searches from now on within the limits.
+    pub fn within<T>(self, search: impl FnOnce(&dyn StopRule) -> T) -> T {
+        let watch = Stopwatch::start();
+        search(&|done: u64| {
+            self.iterations.is_some_and(|most| done >= most)
+                || self.time.is_some_and(|limit| watch.elapsed() >= limit)
+        })
+    }
+}
+
 /// Such as `250ms`, `1s`, `1m 30s`.
-fn time(text: &str) -> Result<Duration, String> {
+pub(super) fn time(text: &str) -> Result<Duration, String> {
     const RULE: &str = "must be a time such as 250ms, 1s or 2m";
     let time: jiff::SignedDuration = text.parse().map_err(|_| RULE.to_owned())?;
     Duration::try_from(time).map_err(|_| RULE.to_owned())

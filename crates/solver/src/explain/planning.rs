@@ -1,8 +1,10 @@
 //! Planning a changed scenario with a few iterations.
 
+use std::collections::HashMap;
+
 use super::meter::Meter;
 use crate::plan::Plan;
-use crate::scenario::Scenario;
+use crate::scenario::{Request, Scenario};
 use crate::solvers::{Options, SolverName, solve};
 
 /// Iterations of one planning.
@@ -31,9 +33,8 @@ pub(super) fn order_of(
 
 /// The stops of a plan as requests; what is no request of the scenario is left out.
 pub(super) fn requests(scenario: &Scenario, plan: &Plan) -> Vec<usize> {
-    let asks = |id: &str| {
-        let is = |r: &crate::scenario::Request| scenario.sensors[r.sensor].id == id;
-        scenario.requests.iter().position(is)
-    };
-    plan.stops.iter().filter_map(|stop| asks(&stop.sensor)).collect()
+    let id = |r: &Request| scenario.sensors[r.sensor].id.as_str();
+    let asking: HashMap<&str, usize> =
+        scenario.requests.iter().enumerate().map(|(i, r)| (id(r), i)).collect();
+    plan.stops.iter().filter_map(|stop| asking.get(stop.sensor.as_str()).copied()).collect()
 }

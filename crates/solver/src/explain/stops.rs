@@ -1,5 +1,7 @@
 //! Why each request that is not a stop is none, and what would be without each stop.
 
+use std::collections::HashMap;
+
 use super::explanation::{CheapestInsertion, Short, WhyServed, WhyUnserved};
 use super::facts::{Trip, alone, breaches, sensor_id};
 use super::insertion::{Insertion, Present, cheapest};
@@ -15,12 +17,15 @@ pub(super) fn unserved(
     meter: &mut Meter<'_>,
 ) -> (Vec<WhyUnserved>, Vec<Insertion>) {
     let instance = present.instance;
-    let candidate = |id: &str| (0..instance.len() as u32).find(|&c| sensor_id(instance, c) == id);
+    let all = (0..instance.len() as u32).map(|c| (sensor_id(instance, c), c));
+    let candidates: HashMap<String, u32> = all.collect();
     let mut tried = Vec::new();
     let mut why = Vec::with_capacity(plan.unserved.len());
     for request in &plan.unserved {
-        let candidate =
-            candidate(&request.sensor).filter(|_| request.reason != Reason::AlreadyCharged);
+        let candidate = candidates
+            .get(&request.sensor)
+            .copied()
+            .filter(|_| request.reason != Reason::AlreadyCharged);
         let insertions = candidate.and_then(|c| present.insertions(c, meter)).unwrap_or_default();
         let best = cheapest(instance, &insertions);
         why.push(WhyUnserved {

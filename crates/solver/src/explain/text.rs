@@ -14,6 +14,9 @@ use crate::scenario::Objective;
 /// So many sub-regions are told of one stop.
 const TOLD: usize = 2;
 
+const HOPELESS: &str = "No single change of the capacity, the time span, the speed or one deadline makes \
+a feasible tour.";
+
 impl Display for Explanation {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let status = match self.status {
@@ -28,6 +31,9 @@ impl Display for Explanation {
         let objective = self.objective;
         write_list(f, "Served:", &self.served, |stop| served(stop, objective))?;
         write_list(f, "What a change would buy:", &self.next, next)?;
+        if self.complete && self.conflict.is_some() && self.next.is_empty() {
+            writeln!(f, "\n{HOPELESS}")?;
+        }
         if !self.complete {
             writeln!(
                 f,
@@ -74,12 +80,11 @@ fn write_list<T>(
 }
 
 fn unserved(why: &WhyUnserved) -> String {
-    let facts = match (&why.alone, why.reason) {
-        (Some(alone), Reason::Unreachable | Reason::NoCapacity) => alone_text(alone),
-        _ => String::new(),
-    };
-    let insertion = why.insertion.as_ref().map(insertion).unwrap_or_default();
-    let facts: Vec<String> = [facts, insertion].into_iter().filter(|t| !t.is_empty()).collect();
+    let mut facts = Vec::new();
+    match (&why.alone, why.reason) {
+        (Some(alone), Reason::Unreachable | Reason::NoCapacity) => facts.push(alone_text(alone)),
+        _ => facts.extend(why.insertion.as_ref().map(insertion)),
+    }
     let more = if facts.is_empty() { String::new() } else { format!("; {}", facts.join("; ")) };
     format!("{}: {}{more}", name(&why.sensor), reason(why.reason))
 }
@@ -203,8 +208,10 @@ fn next(next: &NextChange) -> String {
         }
     };
     let proof = match next.too_little {
-        Some(value) if next.proven => format!("; less than {} would not do", number(value)),
-        Some(value) => format!("; {} would not do, what lies between is open", number(value)),
+        Some(value) if next.proven => {
+            format!("; no less would do ({} is proven too little)", number(value))
+        }
+        Some(value) => format!("; {} is too little, what lies between is open", number(value)),
         None => String::new(),
     };
     format!("{change} {buys}{proof} (tour: {})", route(&next.tour))

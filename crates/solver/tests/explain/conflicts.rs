@@ -19,7 +19,7 @@ pub fn infeasible(wanted: usize, most: usize, mut test: impl FnMut(&Document, &S
     for seed in 0.. {
         let document = mixed::draw(1 + seed as usize % most, seed);
         let Ok(scenario) = Scenario::from_document(&document) else { continue };
-        let plan = plan(&scenario, 100_000);
+        let plan = plan(&scenario, if most < 6 { 100_000 } else { 500 });
         if plan.status == Status::BestEffort {
             test(&document, &scenario, &plan);
             found += 1;

@@ -6,8 +6,9 @@ use crate::check::check;
 use crate::coverage::Demand;
 use crate::instance::Instance;
 use crate::plan::Plan;
-use crate::scenario::{Objective, Scenario};
+use crate::scenario::{Objective, Place, Scenario, Sensor};
 use crate::solvers::plan_from_order;
+use crate::tour::simulate;
 
 /// A number that may be raised.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -80,8 +81,7 @@ impl Lever {
     /// Whether more of it is never worse. A faster charger meets a moving sensor elsewhere, and may spend more
     /// energy for it.
     pub(super) fn is_monotone(self, scenario: &Scenario) -> bool {
-        let moves =
-            |s: &crate::scenario::Sensor| matches!(s.place, crate::scenario::Place::Moving(_));
+        let moves = |s: &Sensor| matches!(s.place, Place::Moving(_));
         let dear = scenario.charger.capacity_j.is_some();
         self != Self::Speed || !dear || !scenario.sensors.iter().any(moves)
     }
@@ -140,7 +140,8 @@ fn speed_for(scenario: &Scenario, order: &[usize]) -> Option<f64> {
         let changed = Lever::Speed.set(scenario, speed_mps);
         let instance = bare(&changed);
         let stops = candidates(&instance, order);
-        Trip::of(&instance, &stops).is_legal(&instance)
+        // As a solver keeps its limits, so that the check has the rest of the tolerance.
+        simulate(&instance, &stops).1
     };
     let (mut slow, mut fast) = (scenario.charger.speed_mps, scenario.charger.speed_mps * FAST);
     if !legal(fast) {
