@@ -1,4 +1,4 @@
-//! The commands `solve`, `check` and `generate` of the real binary: exit codes, what goes where,
+//! The commands `solve`, `check`, `explain` and `generate` of the real binary: exit codes, what goes where,
 //! standard input, bad documents.
 #![allow(clippy::unwrap_used, reason = "a test fails by it")]
 
@@ -118,6 +118,57 @@ fn no_feasible_tour_is_exit_code_one_with_a_plan() {
 }
 
 #[test]
+fn an_infeasible_scenario_is_explained() {
+    let late = SMALL.replace("5400", "10");
+    let output = voltour(&["explain", "-", "--iterations", "1000"], &late);
+    assert_eq!(code(&output), 1, "{}", text(&output.stderr));
+    let told = text(&output.stdout);
+    assert!(told.starts_with("infeasible: no tour keeps every constraint.\n"), "{told}");
+    assert!(told.contains("needs s1 before 10 s; the charger cannot reach it in time"), "{told}");
+    assert!(output.stderr.is_empty());
+
+    let json_of = |seed: &str| {
+        let arguments =
+            ["explain", "-", "--iterations", "1000", "--format", "json", "--seed", seed];
+        json(&voltour(&arguments, &late).stdout)
+    };
+    let explanation = json_of("1");
+    assert_eq!(explanation["format"], "voltour/explanation/1");
+    assert_eq!(explanation["conflict"]["irreducible"], true);
+    assert_eq!(explanation["next"][0]["change"]["kind"], "deadline");
+    assert_eq!(explanation, json_of("1"));
+}
+
+#[test]
+fn a_plan_is_explained_if_it_holds() {
+    let folder = tempfile::tempdir().unwrap();
+    let scenario = file(folder.path(), "scenario.json", SMALL);
+    let solved = voltour(&["solve", &scenario, "--iterations", "10"], "");
+    let output = voltour(&["explain", &scenario, "-", "--time-limit", "1s"], text(&solved.stdout));
+    assert_eq!(code(&output), 0, "{}", text(&output.stderr));
+    let told = text(&output.stdout);
+    assert!(
+        told.starts_with("feasible: ") && told.contains("\n  s1: without it -282.84 m"),
+        "{told}"
+    );
+
+    let target = folder.path().join("explanation.json");
+    let target = target.to_str().unwrap();
+    let plan = file(folder.path(), "plan.json", text(&solved.stdout));
+    let output = voltour(&["explain", &scenario, &plan, "--format", "json", "-o", target], "");
+    assert_eq!((code(&output), output.stdout.len()), (0, 0), "{}", text(&output.stderr));
+    assert_eq!(json(&fs::read(target).unwrap())["served"][0]["sensor"], "s1");
+
+    let mut wrong = json(&solved.stdout);
+    wrong["distance_m"] = 5.into();
+    let output = voltour(&["explain", &scenario, "-"], &wrong.to_string());
+    assert_eq!(code(&output), 1);
+    assert!(output.stdout.is_empty());
+    let lines = text(&output.stderr);
+    assert!(lines.contains("is not explained\n") && lines.contains("distance_m: "), "{lines}");
+}
+
+#[test]
 fn bad_documents_are_one_line() {
     let cases = [
         (SMALL.replace("\"drain_w\": 0.3", "\"drain_w\": -1"), "requests[0].drain_w"),
@@ -130,7 +181,7 @@ fn bad_documents_are_one_line() {
         ("\u{feff}{}".to_owned(), "line 1"),
     ];
     for (document, expected) in cases {
-        for command in ["solve", "check"] {
+        for command in ["solve", "check", "explain"] {
             let mut arguments = vec![command, "-"];
             if command == "check" {
                 arguments.push("/nowhere/plan.json");
@@ -152,13 +203,19 @@ fn bad_arguments_are_one_line() {
     let line = refused(&voltour(&["solve", "-", "--model", "policy.onnx"], SMALL));
     assert!(line.contains("--model"), "{line}");
     assert!(refused(&voltour(&["solve", "/nowhere.json"], "")).contains("/nowhere.json"));
-    assert!(refused(&voltour(&["check", "-", "-"], SMALL)).contains("standard input"));
+    for command in ["check", "explain"] {
+        assert!(refused(&voltour(&[command, "-", "-"], SMALL)).contains("standard input"));
+    }
+    let line = refused(&voltour(&["explain", "-", "--solver", "magic"], SMALL));
+    assert!(line.contains("unknown solver \"magic\""), "{line}");
     let line = refused(&voltour(&["generate", "reward", "--seed", "1", "--side-m", "-1"], ""));
     assert!(line.contains("--side-m: -1"), "{line}");
     for arguments in [
         &["solve"][..],
         &["solve", "-", "--time-limit", "-1s"],
         &["solve", "-", "--iterations", "x"],
+        &["explain", "-", "--format", "xml"],
+        &["explain", "-", "/nowhere/plan.json", "--solver", "greedy"],
         &["generate", "reward"],
         &["generate", "nothing", "--seed", "1"],
     ] {
