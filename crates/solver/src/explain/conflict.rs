@@ -31,6 +31,9 @@ pub(super) fn search(ground: &mut Ground<'_>, plan: &Plan, meter: &mut Meter<'_>
     match contradicting(ground, &anchors, meter) {
         Search::Conflict(parts, _) => {
             let (parts, irreducible) = thin(ground, parts, anchors[0], meter);
+            if !irreducible {
+                meter.cut();
+            }
             Search::Conflict(parts, irreducible)
         }
         other => other,

@@ -1,7 +1,8 @@
 //! [`explain`]: the questions in their order, facts first, then what takes a search.
 
+use super::change::NextChange;
 use super::conflict::{self, Search};
-use super::explanation::{Clause, Conflict, Explanation, FORMAT, NextChange};
+use super::explanation::{Clause, Conflict, Explanation, FORMAT};
 use super::facts::alone;
 use super::ground::{Ground, Part, covers};
 use super::insertion::Present;
@@ -38,7 +39,8 @@ pub fn explain(scenario: &Scenario, plan: &Plan, seed: u64, stop: &dyn StopRule)
         iterations: 0,
     };
     if !plan.status.is_feasible() {
-        let mut ground = Ground::new(scenario, covers, DECISION);
+        let mut ground =
+            Ground::new(scenario, covers, planning::requests(scenario, plan), DECISION);
         explain_infeasible(&mut explanation, &mut ground, &instance, plan, seed, &mut meter);
     } else if scenario.objective == Objective::MinDistance {
         explanation.next = next::shorter(scenario, plan, seed, &mut meter);
@@ -77,7 +79,10 @@ fn explain_infeasible(
             explanation.feasible_tour = Some(order.iter().map(id).collect());
             return;
         }
-        Search::Open => None,
+        Search::Open => {
+            meter.cut();
+            None
+        }
     };
     explanation.next = changes(ground, parts.as_deref(), instance, plan, seed, meter);
 }

@@ -39,15 +39,21 @@ pub(super) struct Ground<'a> {
     pub scenario: &'a Scenario,
     /// The demands of coverage that no other implies.
     pub covers: Vec<Demand>,
-    /// Tours that some answer was; they may answer the next question too.
+    /// The plan's tour, then those that some answer was; they may answer the next question too.
     known: Vec<Vec<usize>>,
     /// Iterations for one question.
     most: u64,
 }
 
 impl<'a> Ground<'a> {
-    pub(super) fn new(scenario: &'a Scenario, covers: Vec<Demand>, most: u64) -> Self {
-        Self { scenario, covers, known: Vec::new(), most }
+    /// `tour`: the plan's, as requests; `most`: iterations for one question.
+    pub(super) fn new(
+        scenario: &'a Scenario,
+        covers: Vec<Demand>,
+        tour: Vec<usize>,
+        most: u64,
+    ) -> Self {
+        Self { scenario, covers, known: vec![tour], most }
     }
 
     /// Every constraint: demands first, then deadlines, then the limits of the charger.
@@ -120,7 +126,9 @@ impl<'a> Ground<'a> {
             .collect();
         let instance = Instance::with_demands(&scenario, &covers);
         let keeps = |order: &&Vec<usize>| keeps(&instance, order);
-        if let Some(order) = self.known.iter().rev().take(REMEMBERED).find(keeps) {
+        // Most demands are met by the plan: it answers for them.
+        let known = self.known.iter().take(1).chain(self.known.iter().skip(1).rev());
+        if let Some(order) = known.take(REMEMBERED).find(keeps) {
             return Answer::Feasible(order.clone());
         }
         let answer = ask(&instance, self.most, meter);
@@ -179,10 +187,7 @@ fn ask(instance: &Instance<'_>, most: u64, meter: &mut Meter<'_>) -> Answer {
             order.iter().map(|&c| instance.candidates[c as usize].request).collect(),
         ),
         Verdict::Infeasible => Answer::Infeasible,
-        Verdict::Unknown => {
-            meter.cut();
-            Answer::Unknown
-        }
+        Verdict::Unknown => Answer::Unknown,
     }
 }
 

@@ -46,6 +46,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod change;
 mod conflict;
 mod entry;
 mod explanation;
@@ -60,8 +61,9 @@ mod stops;
 mod text;
 mod words;
 
+pub use change::{Buys, Change, NextChange};
 pub use entry::explain;
 pub use explanation::{
-    Alone, Breach, Buys, Change, CheapestInsertion, Clause, Conflict, Explanation, FORMAT,
-    NextChange, Short, WhyServed, WhyUnserved,
+    Alone, Breach, CheapestInsertion, Clause, Conflict, Explanation, FORMAT, Short, WhyServed,
+    WhyUnserved,
 };

@@ -2,17 +2,19 @@
 
 use std::fmt::{self, Display, Formatter};
 
+use super::change::{Buys, Change, NextChange};
 use super::explanation::{
-    Alone, Breach, Buys, Change, CheapestInsertion, Clause, Explanation, NextChange, WhyServed,
-    WhyUnserved,
+    Alone, Breach, CheapestInsertion, Clause, Explanation, WhyServed, WhyUnserved,
 };
 use super::sentence::phrase;
 use super::words::{all_of, at_least, name, names, number, place, signed};
 use crate::plan::{Reason, Status};
 use crate::scenario::Objective;
 
-/// So many sub-regions are told of one stop.
+/// So many sub-regions are told of one stop, and so many broken limits of one insertion.
 const TOLD: usize = 2;
+/// So many stops are told of one tour; the document has all.
+const STOPS: usize = 12;
 
 const HOPELESS: &str = "No single change of the capacity, the time span, the speed or one deadline makes \
 a feasible tour.";
@@ -120,7 +122,10 @@ fn insertion(insertion: &CheapestInsertion) -> String {
         signed(insertion.extra_s),
         signed(insertion.extra_j)
     );
-    let breaks: Vec<String> = insertion.breaks.iter().map(breach).collect();
+    let mut breaks: Vec<String> = insertion.breaks.iter().take(TOLD).map(breach).collect();
+    if insertion.breaks.len() > TOLD {
+        breaks.push(format!("{} more limits would be broken", insertion.breaks.len() - TOLD));
+    }
     if breaks.is_empty() {
         return format!("it would fit {place} ({cost})");
     }
@@ -218,5 +223,10 @@ fn next(next: &NextChange) -> String {
 }
 
 fn route(tour: &[String]) -> String {
-    if tour.is_empty() { "no stop".to_owned() } else { names(tour) }
+    let more = tour.len().saturating_sub(STOPS);
+    match (tour.len(), more) {
+        (0, _) => "no stop".to_owned(),
+        (_, 0) => names(tour),
+        _ => format!("{} and {more} more", names(&tour[..STOPS])),
+    }
 }

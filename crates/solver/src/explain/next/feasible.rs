@@ -1,6 +1,6 @@
 //! The least change that makes an infeasible scenario feasible, by bisection over decisions.
 
-use super::super::explanation::{Buys, NextChange};
+use super::super::change::{Buys, NextChange};
 use super::super::ground::{Answer, Part, decide_all};
 use super::super::meter::Meter;
 use super::super::planning::order_of;
@@ -97,7 +97,10 @@ fn least(
                 too_little = ask;
                 fresh = false;
             }
-            Answer::Unknown => sure = false,
+            Answer::Unknown => {
+                meter.cut();
+                sure = false;
+            }
         }
     }
     let proven = sure && enough - too_little <= CLOSE * enough;
@@ -119,6 +122,9 @@ fn opens(
         Answer::Feasible(order) => Some((order, true)),
         Answer::Infeasible => None,
         // The bisection would not get an answer either; but a tour that does is worth knowing.
-        Answer::Unknown => order_of(scenario, seed, meter).map(|order| (order, false)),
+        Answer::Unknown => {
+            meter.cut();
+            order_of(scenario, seed, meter).map(|order| (order, false))
+        }
     }
 }

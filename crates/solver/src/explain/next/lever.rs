@@ -1,6 +1,6 @@
 //! [`Lever`]: the number of the scenario that changes, and how much of it a given tour needs.
 
-use super::super::explanation::{Buys, Change, NextChange};
+use super::super::change::{Buys, Change, NextChange};
 use super::super::facts::Trip;
 use crate::check::check;
 use crate::coverage::Demand;

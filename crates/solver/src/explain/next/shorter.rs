@@ -2,7 +2,7 @@
 //!
 //! Sufficient, not proven minimal: less may do for a part of the gain.
 
-use super::super::explanation::{Buys, NextChange};
+use super::super::change::{Buys, NextChange};
 use super::super::meter::Meter;
 use super::super::planning::{plan_of, requests};
 use super::Lever;

@@ -2,7 +2,7 @@
 //!
 //! Sufficient, not proven minimal: another tour may do with less.
 
-use super::super::explanation::{Buys, NextChange};
+use super::super::change::{Buys, NextChange};
 use super::super::insertion::{Insertion, Present};
 use super::Lever;
 use super::lever::gain;
