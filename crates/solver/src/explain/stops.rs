@@ -6,11 +6,12 @@ use super::explanation::{CheapestInsertion, Short, WhyServed, WhyUnserved};
 use super::facts::{Trip, alone, breaches, sensor_id};
 use super::insertion::{Insertion, Present, cheapest};
 use super::meter::Meter;
+use super::next;
 use crate::coverage::Demand;
 use crate::plan::{Plan, Reason};
 use crate::tour::Tour;
 
-/// Each unserved request of the plan; and all insertions that were tried, for the next change.
+/// Each unserved request of the plan; and the insertions that the next change may come from.
 pub(super) fn unserved(
     present: &mut Present<'_, '_>,
     plan: &Plan,
@@ -34,7 +35,7 @@ pub(super) fn unserved(
             alone: candidate.map(|c| alone(instance, c)),
             insertion: best.map(|best| insertion(present, best)),
         });
-        tried.extend(insertions);
+        tried.extend(next::notable(instance, &insertions));
     }
     (why, tried)
 }

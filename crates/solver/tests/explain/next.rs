@@ -129,3 +129,68 @@ fn what_betters_a_feasible_plan_does() {
     }
     assert!(told[0] > 10 && told[1] > 50 && told[2] > 50, "{told:?}");
 }
+
+#[test]
+fn no_insertion_needs_less_capacity_or_time() {
+    let mut told = 0;
+    for seed in 0..1500 {
+        let document = mixed::draw(3 + seed as usize % 5, seed);
+        let Ok(scenario) = Scenario::from_document(&document) else { continue };
+        let plan = plan(&scenario, 2_000);
+        if !plan.status.is_feasible() || scenario.objective == Objective::MinDistance {
+            continue;
+        }
+        let explanation = explain(&scenario, &plan, 0, &MaxIterations(20_000));
+        let mut document = explicit(&document, &scenario);
+        let find = |kind: fn(&Change) -> Option<f64>| {
+            explanation.next.iter().find_map(|n| kind(&n.change))
+        };
+        let capacity =
+            find(|c| if let Change::Capacity { to_j, .. } = c { Some(*to_j) } else { None });
+        let timespan =
+            find(|c| if let Change::Timespan { to_s, .. } = c { Some(*to_s) } else { None });
+        let [capacity_j, timespan_s] = [document.charger.capacity_j, document.charger.timespan_s];
+        if let Some(to_j) = capacity {
+            document.charger.capacity_j = None;
+            let least = least(&document, &plan, |p| p.charge_j + p.travel_j);
+            assert!((to_j - least).abs() < 1e-6 * to_j, "{:?}: {to_j} {least}", scenario.name);
+            document.charger.capacity_j = capacity_j;
+            told += 1;
+        }
+        if let Some(to_s) = timespan {
+            document.charger.timespan_s = None;
+            let least = least(&document, &plan, |p| p.finish_s);
+            assert!((to_s - least).abs() < 1e-6 * to_s, "{:?}: {to_s} {least}", scenario.name);
+            document.charger.timespan_s = timespan_s;
+            told += 1;
+        }
+    }
+    assert!(told > 100, "{told}");
+}
+
+/// The least that any insertion into a plan's tour takes, where the scenario without the limit allows it.
+fn least(document: &Document, plan: &Plan, takes: fn(&Plan) -> f64) -> f64 {
+    let scenario = Scenario::from_document(document).unwrap();
+    let id = |r: usize| &scenario.sensors[scenario.requests[r].sensor].id;
+    let request =
+        |id: &String| scenario.requests.iter().position(|r| scenario.sensors[r.sensor].id == *id);
+    let order: Vec<usize> = plan.stops.iter().map(|s| request(&s.sensor).unwrap()).collect();
+    let mut least = f64::INFINITY;
+    for new in
+        (0..scenario.requests.len()).filter(|&r| plan.unserved.iter().any(|u| u.sensor == *id(r)))
+    {
+        let asked = &scenario.requests[new];
+        let worthless = scenario.objective == Objective::MaxReward && asked.reward == 0.0;
+        if worthless || scenario.already_charged(asked) {
+            continue;
+        }
+        for at in 0..=order.len() {
+            let mut order = order.clone();
+            order.insert(at, new);
+            if mixed::worth(&scenario, &order).is_some() {
+                least = least.min(takes(&plan_from_order(&scenario, &order, "auto")));
+            }
+        }
+    }
+    least
+}

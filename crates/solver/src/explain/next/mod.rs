@@ -8,4 +8,4 @@ mod stop;
 pub(super) use feasible::feasible;
 pub(super) use lever::Lever;
 pub(super) use shorter::shorter;
-pub(super) use stop::one_more;
+pub(super) use stop::{notable, one_more};
