@@ -159,11 +159,11 @@ class Tour:
     def times(self):
         """Arrivals and departures, each no sooner than the stop before allows."""
         horizon_s = self.horizon()
-        self.arrive, leave = {}, {}
+        self.arrive, self.leave = {}, {}
         for i in self.useful:
             latest_s = horizon_s if self.latest_s[i] is None else self.latest_s[i]
             self.arrive[i] = self.model.new_int_var(down(self.earliest_s[i]), up(latest_s), f"arrive_{i}")
-            leave[i] = self.departure(i, latest_s)
+            self.leave[i] = self.departure(i, latest_s)
         if self.latest_s[self.end] is not None:
             earliest, latest = self.earliest_s[self.end], self.latest_s[self.end]
             self.arrive[self.end] = self.model.new_int_var(down(earliest), up(latest), "finish")
@@ -171,7 +171,7 @@ class Tour:
             # From the start the lower bound of the arrival says it.
             if i != j and i != self.start and j in self.arrive:
                 way = down(self.travel_s(i, j))
-                self.model.add(self.arrive[j] >= leave[i] + way).only_enforce_if(literal)
+                self.model.add(self.arrive[j] >= self.leave[i] + way).only_enforce_if(literal)
 
     def horizon(self):
         """No tour lasts longer, in seconds, wherever the charger goes next."""

@@ -3,10 +3,11 @@
 use std::error::Error;
 
 use voltour_solver::generate::{GenerateError, KCoverage, Reward, k_coverage, reward};
+use voltour_solver::instance::Instance;
 use voltour_solver::scenario::{Document, Scenario};
 
-/// Settings of k-coverage: sensors, covers, the share of the battery below which a sensor asks, seeds.
-const K_COVERAGE: [(u32, u32, f64, u64); 14] = [
+/// Settings of k-coverage: sensors, covers, the share of the battery below which a sensor asks, scenarios.
+const K_COVERAGE: [(u32, u32, f64, usize); 14] = [
     (48, 3, 0.45, 3),
     (64, 3, 0.45, 3),
     (72, 3, 0.45, 3),
@@ -23,8 +24,8 @@ const K_COVERAGE: [(u32, u32, f64, u64); 14] = [
     (48, 3, 0.8, 1),
 ];
 
-/// Settings of reward: sensors, all of which ask, capacity in joules, seeds.
-const REWARD: [(u32, f64, u64); 2] = [(50, 300_000.0, 2), (100, 300_000.0, 2)];
+/// Settings of reward: sensors, all of which ask, capacity in joules, scenarios.
+const REWARD: [(u32, f64, usize); 2] = [(50, 300_000.0, 2), (100, 300_000.0, 2)];
 
 /// All 30, with their names, or those whose names contain a text.
 pub fn scenarios(only: &str) -> Result<Vec<(String, Scenario)>, Box<dyn Error>> {
@@ -42,16 +43,24 @@ pub fn scenarios(only: &str) -> Result<Vec<(String, Scenario)>, Box<dyn Error>> 
     Ok(found)
 }
 
+/// The first scenarios of each setting in which somebody must be charged: without a demand the best tour
+/// is none, and there is nothing to time.
 fn coverage_documents() -> impl Iterator<Item = Result<Document, GenerateError>> {
-    K_COVERAGE.into_iter().flat_map(|(sensors, k, alpha, seeds)| {
+    K_COVERAGE.into_iter().flat_map(|(sensors, k, alpha, count)| {
         let options = KCoverage { sensors, k, alpha, ..KCoverage::default() };
-        (0..seeds).map(move |seed| k_coverage(&options, seed))
+        let drawn = (0..).map(move |seed| k_coverage(&options, seed));
+        drawn.filter(|document| document.as_ref().map_or(true, has_demand)).take(count)
     })
 }
 
 fn reward_documents() -> impl Iterator<Item = Result<Document, GenerateError>> {
-    REWARD.into_iter().flat_map(|(sensors, capacity_j, seeds)| {
+    REWARD.into_iter().flat_map(|(sensors, capacity_j, count)| {
         let options = Reward { sensors, capacity_j, alpha: 1.0, ..Reward::default() };
-        (0..seeds).map(move |seed| reward(&options, seed))
+        (0..count as u64).map(move |seed| reward(&options, seed))
     })
+}
+
+fn has_demand(document: &Document) -> bool {
+    let scenario = Scenario::from_document(document);
+    scenario.is_ok_and(|scenario| !Instance::new(&scenario).demands.demands.is_empty())
 }
