@@ -48,7 +48,10 @@ fn run() -> Result<bool, Box<dyn Error>> {
     let arguments = Arguments::read(std::env::args().skip(1))?;
     let scenarios = scenarios::scenarios(&arguments.only)?;
     let mut cpsat = CpSat::start(arguments.limit_s)?;
-    println!("{} against CP-SAT, both with {:.0} s", arguments.solver, arguments.limit_s);
+    println!(
+        "{} ({} s) against CP-SAT ({} s)",
+        arguments.solver, arguments.solver_limit_s, arguments.limit_s
+    );
     println!("{}", Row::HEAD);
     let mut rows = Vec::new();
     for (name, scenario) in &scenarios {

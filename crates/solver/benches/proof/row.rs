@@ -111,7 +111,7 @@ impl fmt::Display for Row {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mark = |late: bool| if late { ">" } else { "" };
         let ours = format!("{}{:.4}", mark(!self.ours.is_proven()), self.ours.solve_s);
-        let theirs = format!("{}{:.2}", mark(self.is_timed_out()), self.wall_s);
+        let theirs = format!("{}{:.3}", mark(self.is_timed_out()), self.wall_s);
         let value = if self.ours.plan.status.is_feasible() {
             format!("{:.3}", self.ours.plan.objective)
         } else {
