@@ -62,7 +62,17 @@ pub(super) struct Found {
 /// # Errors
 /// The solver is not in this version.
 pub fn solve(scenario: &Scenario, options: &Options<'_>) -> Result<Outcome, Unavailable> {
-    let instance = Instance::new(scenario);
+    solve_compiled(&Instance::new(scenario), options)
+}
+
+/// [`solve`] of a scenario that is compiled already, so that the two can be timed apart.
+///
+/// # Errors
+/// The solver is not in this version.
+pub fn solve_compiled(
+    instance: &Instance<'_>,
+    options: &Options<'_>,
+) -> Result<Outcome, Unavailable> {
     let mut budget = Budget::new(options.stop);
     let mut rng = Pcg64Mcg::seed_from_u64(options.seed);
     let single = |order, phase: &str, budget: &Budget<'_>| Found {
@@ -71,16 +81,16 @@ pub fn solve(scenario: &Scenario, options: &Options<'_>) -> Result<Outcome, Unav
         iterations: vec![(phase.to_owned(), budget.iterations())],
     };
     let found = match options.solver {
-        SolverName::Auto => auto::auto(&instance, &mut rng, &mut budget),
-        SolverName::Baseline => vec![baseline::solve(&instance, &[], &mut rng, &mut budget)],
+        SolverName::Auto => auto::auto(instance, &mut rng, &mut budget),
+        SolverName::Baseline => vec![baseline::solve(instance, &[], &mut rng, &mut budget)],
         SolverName::Greedy => {
-            vec![single(greedy::greedy(&instance, &mut budget), "insertion", &budget)]
+            vec![single(greedy::greedy(instance, &mut budget), "insertion", &budget)]
         }
         SolverName::Nearest => {
-            vec![single(greedy::nearest(&instance, &mut budget), "walk", &budget)]
+            vec![single(greedy::nearest(instance, &mut budget), "walk", &budget)]
         }
         SolverName::Random => {
-            vec![single(random::random(&instance, &mut rng, &mut budget), "walks", &budget)]
+            vec![single(random::random(instance, &mut rng, &mut budget), "walks", &budget)]
         }
         SolverName::Dqn
         | SolverName::Exact
@@ -90,7 +100,7 @@ pub fn solve(scenario: &Scenario, options: &Options<'_>) -> Result<Outcome, Unav
         | SolverName::Cmst
         | SolverName::App => return Err(Unavailable(options.solver)),
     };
-    Ok(outcome(&instance, &found))
+    Ok(outcome(instance, &found))
 }
 
 /// The plan of the best tour found, the earlier among equals; each solver is a contender.

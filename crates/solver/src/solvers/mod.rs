@@ -18,5 +18,7 @@ mod random;
 mod shortcut;
 
 pub use budget::Budget;
-pub use entry::{Contender, Options, Outcome, Unavailable, empty_plan, plan_from_order, solve};
+pub use entry::{
+    Contender, Options, Outcome, Unavailable, empty_plan, plan_from_order, solve, solve_compiled,
+};
 pub use name::{SolverName, UnknownSolver};
