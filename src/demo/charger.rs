@@ -4,6 +4,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use tonic::transport::Channel;
+use voltour_solver::gap::percent;
 
 use super::stage::Play;
 use crate::cli::Failure;
@@ -94,7 +95,9 @@ async fn drive(
     let charger = &tour.charger_id;
     let (stops, back) = (tour.stops.len(), play.teller.time(tour.finish));
     let (length, solver) = (tour.distance_m, &tour.solver);
-    let plan = format!("gets its tour: {stops} stops, {length:.0} m, back at {back} (by {solver})");
+    let gap = tour.gap.map(|gap| format!(", gap {}", percent(gap))).unwrap_or_default();
+    let plan =
+        format!("gets its tour: {stops} stops, {length:.0} m, back at {back} (by {solver}{gap})");
     play.tell(charger, &plan);
     play.clock.sleep_until(tour.start).await;
     for stop in &tour.stops {

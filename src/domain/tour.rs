@@ -77,6 +77,8 @@ pub struct Tour {
     pub objective: f64,
     /// Proven bound.
     pub bound: Option<f64>,
+    /// How far the tour may be from the best: of the objective to the bound.
+    pub gap: Option<f64>,
     /// When it last changed.
     pub updated_at: Timestamp,
     /// Rises with every change of the database.
@@ -147,6 +149,9 @@ pub struct Provenance {
     pub contenders: Vec<Contender>,
     /// Whose tour it is.
     pub winner: String,
+    /// How far it may be from the best: of its objective to its bound, where it has one.
+    #[serde(default)]
+    pub gap: Option<f64>,
     /// The policy's name and the SHA-256 of its file, where one was used.
     pub policy: Option<PolicyUsed>,
     /// Why the policy was not used.

@@ -40,7 +40,7 @@ pub(super) fn record(
     let stops = plan.stops.iter().map(|stop| new_stop(batch, &by_sensor, stop));
     let charger = &scenario.charger;
     Ok(NewPlan {
-        status: plan.status.name(),
+        status: plan.status,
         solver: plan.solver.clone(),
         objective: plan.objective,
         bound: plan.bound,
@@ -92,6 +92,7 @@ fn provenance(batch: &Batch, contest: &Contest, winner: &Winner) -> Provenance {
         asked: contest.solver.name().to_owned(),
         contenders: outcome.contenders.iter().map(contender).collect(),
         winner: outcome.plan.solver.clone(),
+        gap: outcome.plan.gap(),
         policy: None,
         fallback_reason: (!refused.is_empty()).then(|| refused.join("; ")),
         seed: contest.seed,

@@ -8,6 +8,7 @@ use axum::http::{HeaderMap, Request, StatusCode};
 use serde_json::{Value, json};
 use tokio_util::sync::CancellationToken;
 use tower::ServiceExt;
+use voltour_solver::plan::Status;
 use voltour_solver::scenario::Scenario;
 use voltour_solver::solvers::plan_from_order;
 
@@ -93,7 +94,7 @@ impl Edge {
         let departure_id = self.bench.announce("truck").await;
         let batch = self.bench.closed(departure_id).await;
         let plan = NewPlan {
-            status: "feasible",
+            status: Status::Feasible,
             solver: "greedy".into(),
             objective: 0.0,
             bound: None,

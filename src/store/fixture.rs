@@ -5,6 +5,7 @@ use std::time::Duration;
 
 use jiff::Timestamp;
 use tempfile::TempDir;
+use voltour_solver::plan::Status;
 use voltour_solver::scenario::Objective;
 
 use super::{
@@ -198,7 +199,7 @@ impl Bench {
             }
         };
         let plan = NewPlan {
-            status: "feasible",
+            status: Status::Feasible,
             solver: "greedy".into(),
             objective: 1.0,
             bound: None,

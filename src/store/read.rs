@@ -4,6 +4,7 @@ use jiff::Timestamp;
 use serde::Serialize;
 use sqlx::sqlite::SqliteRow;
 use sqlx::{AssertSqlSafe, QueryBuilder, Sqlite, SqliteConnection, SqlitePool};
+use voltour_solver::plan::Status;
 
 use super::StoreError;
 use super::cells::{Cells, signed};
@@ -29,10 +30,11 @@ pub struct PlanSummary {
     pub revision: u32,
     pub network_id: NetworkId,
     pub charger_id: ChargerId,
-    pub status: String,
+    pub status: Status,
     pub solver: String,
     pub objective: f64,
     pub bound: Option<f64>,
+    pub gap: Option<f64>,
     pub distance_m: f64,
     pub stops: u32,
     pub unserved: u32,

@@ -1,6 +1,7 @@
 //! From rows to the domain: the columns to select and what is made of them.
 
 use sqlx::sqlite::SqliteRow;
+use voltour_solver::gap::gap;
 
 use super::cells::Cells;
 use super::{PlanSummary, StoreError};
@@ -101,6 +102,8 @@ pub(super) fn departure(row: &SqliteRow) -> Row<Departure> {
 /// A tour without its stops.
 pub(super) fn tour(row: &SqliteRow) -> Row<Tour> {
     let cells = Cells::new("tours", row);
+    let (status, objective) = (cells.word("status")?, cells.get("objective")?);
+    let bound = cells.get("bound")?;
     Ok(Tour {
         id: cells.parsed("id")?,
         state: cells.word("state")?,
@@ -110,7 +113,7 @@ pub(super) fn tour(row: &SqliteRow) -> Row<Tour> {
         plan_id: cells.parsed("plan_id")?,
         revision: cells.count("revision")?,
         number: cells.count("number")?,
-        status: cells.word("status")?,
+        status,
         start: cells.time("start_us")?,
         finish: cells.time("finish_us")?,
         start_m: [cells.get("start_x_m")?, cells.get("start_y_m")?],
@@ -120,8 +123,9 @@ pub(super) fn tour(row: &SqliteRow) -> Row<Tour> {
         travel_j: cells.get("travel_j")?,
         charge_j: cells.get("charge_j")?,
         solver: cells.get("solver")?,
-        objective: cells.get("objective")?,
-        bound: cells.get("bound")?,
+        objective,
+        bound,
+        gap: gap(status, objective, bound),
         updated_at: cells.time("updated_us")?,
         change: cells.number("change")?,
     })
@@ -174,16 +178,19 @@ pub(super) fn network(row: &SqliteRow) -> Row<Network> {
 
 pub(super) fn plan(row: &SqliteRow) -> Row<PlanSummary> {
     let cells = Cells::new("plans", row);
+    let (status, objective) = (cells.word("status")?, cells.get("objective")?);
+    let bound = cells.get("bound")?;
     Ok(PlanSummary {
         id: cells.parsed("id")?,
         departure_id: cells.parsed("departure_id")?,
         revision: cells.count("revision")?,
         network_id: cells.parsed("network_id")?,
         charger_id: cells.parsed("charger_id")?,
-        status: cells.get("status")?,
+        status,
         solver: cells.get("solver")?,
-        objective: cells.get("objective")?,
-        bound: cells.get("bound")?,
+        objective,
+        bound,
+        gap: gap(status, objective, bound),
         distance_m: cells.get("distance_m")?,
         stops: cells.count("stop_count")?,
         unserved: cells.count("unserved_count")?,

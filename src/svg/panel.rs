@@ -2,6 +2,7 @@
 //! timetable.
 
 use ::svg::node::element::{Circle, Group, Line, Path, Rectangle, Text};
+use voltour_solver::gap::percent;
 use voltour_solver::plan::{Reason, Violation};
 use voltour_solver::scenario::{Objective, Place};
 
@@ -99,10 +100,10 @@ fn figures(panel: &mut Panel, scene: &Scene<'_>) {
     panel.heading("PLAN");
     panel.figure(name, value(plan.objective));
     if let Some(bound) = plan.bound {
-        panel.figure(
-            "Proven bound",
-            format!("{sign} {}{}", value(bound), gap(plan.objective, bound)),
-        );
+        panel.figure("Proven bound", format!("{sign} {}", value(bound)));
+    }
+    if let Some(gap) = plan.gap() {
+        panel.figure("Gap to the bound", percent(gap));
     }
     if scene.scenario.objective != Objective::MinDistance {
         panel.figure("Distance", metres(plan.distance_m));
@@ -124,15 +125,6 @@ fn figures(panel: &mut Panel, scene: &Scene<'_>) {
     panel.figure("Solver", short(&plan.solver, 24));
     panel.figure("Planned in", duration(plan.elapsed_s));
     panel.y += 14.0;
-}
-
-fn gap(objective: f64, bound: f64) -> String {
-    let gap = (objective - bound).abs() / bound.abs() * 100.0;
-    if gap.is_finite() && gap >= 0.005 {
-        format!(" ({} % gap)", number(gap, 2))
-    } else {
-        String::new()
-    }
 }
 
 fn legend(panel: &mut Panel, scene: &Scene<'_>) {

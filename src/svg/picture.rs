@@ -2,6 +2,7 @@
 
 use ::svg::Document;
 use ::svg::node::element::{Definitions, Description, Group, Rectangle, Style, Text};
+use voltour_solver::gap::percent;
 use voltour_solver::plan::{Plan, Violation};
 use voltour_solver::scenario::{Objective, Scenario};
 
@@ -137,6 +138,9 @@ fn description(scene: &Scene<'_>) -> String {
     );
     if let Some(bound) = plan.bound {
         words.push_str(&format!(" Proven bound {}.", number(bound, 3)));
+    }
+    if let Some(gap) = plan.gap() {
+        words.push_str(&format!(" Gap {}.", percent(gap)));
     }
     words
 }

@@ -4,6 +4,7 @@ use std::fmt::{Display, Write as _};
 
 use jiff::Timestamp;
 use serde::Serialize;
+use voltour_solver::gap::percent;
 
 use crate::cli::{Failure, say};
 use crate::domain::{Departure, Network, Outcome, Place, Request, Tour};
@@ -109,7 +110,7 @@ pub fn departure(departure: &Departure) -> String {
 /// A tour with its stops.
 pub fn tour(tour: &Tour) -> String {
     let mut text = format!(
-        "tour {} of charger {} in {}\n  {}, plan {} ({}, by {})\n  leaves {}, back {}; {:.1} m, {:.0} J to sensors, {:.0} J to travel",
+        "tour {} of charger {} in {}\n  {}, plan {} ({}, by {}){}\n  leaves {}, back {}; {:.1} m, {:.0} J to sensors, {:.0} J to travel",
         tour.id,
         tour.charger_id,
         tour.network_id,
@@ -117,6 +118,7 @@ pub fn tour(tour: &Tour) -> String {
         tour.plan_id,
         word(&tour.status),
         free(&tour.solver),
+        proof(tour),
         time(tour.start),
         time(tour.finish),
         tour.distance_m,
@@ -142,6 +144,13 @@ pub fn tour(tour: &Tour) -> String {
         }
     }
     text
+}
+
+/// What is proven of a tour's objective; nothing where nothing is.
+fn proof(tour: &Tour) -> String {
+    let Some(bound) = tour.bound else { return String::new() };
+    let gap = tour.gap.map(|gap| format!(", gap {}", percent(gap))).unwrap_or_default();
+    format!("\n  objective {:.3}, proven bound {bound:.3}{gap}", tour.objective)
 }
 
 fn outcome_word(outcome: Outcome) -> &'static str {

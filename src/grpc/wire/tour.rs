@@ -98,6 +98,7 @@ pub fn tour(wire: proto::Tour) -> Result<Tour, Refusal> {
             solver: wire.solver,
             objective: wire.objective,
             bound: wire.bound,
+            gap: wire.gap,
             updated_at: updated_at?,
             change: 0,
         })
@@ -185,6 +186,7 @@ pub fn tour_to_wire(tour: Tour) -> proto::Tour {
         solver: tour.solver,
         objective: tour.objective,
         bound: tour.bound,
+        gap: tour.gap,
         updated_at: Some(time_to_wire(tour.updated_at)),
     }
 }

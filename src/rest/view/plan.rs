@@ -4,6 +4,7 @@ use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 use uuid::Uuid;
+use voltour_solver::plan::Status;
 
 use crate::rest::query::Named;
 use crate::store;
@@ -30,6 +31,17 @@ impl PlanStatus {
     }
 }
 
+impl From<Status> for PlanStatus {
+    fn from(status: Status) -> Self {
+        match status {
+            Status::Optimal => Self::Optimal,
+            Status::Feasible => Self::Feasible,
+            Status::BestEffort => Self::BestEffort,
+            Status::Infeasible => Self::Infeasible,
+        }
+    }
+}
+
 impl Named for PlanStatus {
     const NAMES: &'static str = "optimal, feasible, best_effort, infeasible";
 }
@@ -43,13 +55,14 @@ pub(in crate::rest) struct PlanSummary {
     revision: u32,
     network_id: String,
     charger_id: String,
-    /// optimal, feasible, best_effort or infeasible
-    status: String,
+    status: PlanStatus,
     /// The solver whose tour it is
     solver: String,
     objective: f64,
     /// Proven bound on the objective
     bound: Option<f64>,
+    /// How far the tour may be from the best: |objective - bound| / |bound|
+    gap: Option<f64>,
     distance_m: f64,
     stops: u32,
     unserved: u32,
@@ -67,10 +80,11 @@ impl From<store::PlanSummary> for PlanSummary {
             revision: plan.revision,
             network_id: plan.network_id.into(),
             charger_id: plan.charger_id.into(),
-            status: plan.status,
+            status: plan.status.into(),
             solver: plan.solver,
             objective: plan.objective,
             bound: plan.bound,
+            gap: plan.gap,
             distance_m: plan.distance_m,
             stops: plan.stops,
             unserved: plan.unserved,
@@ -88,7 +102,7 @@ pub(in crate::rest) struct PlanEnvelope {
     /// A document `voltour/plan/1`
     #[schema(value_type = Object)]
     plan: (),
-    /// Solver asked for, contenders, seed, iterations, versions, batch, what the check said
+    /// Solver asked for, contenders, winner, `gap` (|objective - bound| / |bound|, null without a bound), seed, iterations, versions, batch, what the check said
     #[schema(value_type = Object)]
     provenance: (),
 }

@@ -2,19 +2,22 @@
 //! it or nothing, and only if the departure is still closed as it was when the plan was made.
 
 use jiff::Timestamp;
+use voltour_solver::gap;
+use voltour_solver::plan::Status;
 
 use super::reopen;
 use super::step::step;
 use crate::domain::{DepartureId, PlanId, RequestId, RequestState, SensorId, TourId};
 use crate::store::StoreError;
 use crate::store::cells::{Cells, signed};
+use crate::store::words::Word;
 use crate::store::writer::{Command, Failure, Writing};
 
 /// A plan that holds.
 #[derive(Clone, Debug)]
 #[allow(missing_docs)]
 pub struct NewPlan {
-    pub status: &'static str,
+    pub status: Status,
     pub solver: String,
     pub objective: f64,
     pub bound: Option<f64>,
@@ -30,6 +33,13 @@ pub struct NewPlan {
     pub envelope: Vec<u8>,
     /// The scenario, compressed.
     pub scenario: Vec<u8>,
+}
+
+impl NewPlan {
+    /// How far its tour may be from the best.
+    pub fn gap(&self) -> Option<f64> {
+        gap::gap(self.status, self.objective, self.bound)
+    }
 }
 
 /// A stop of it.
@@ -118,7 +128,7 @@ impl StorePlan {
         .bind(self.departure_id.to_string())
         .bind(network)
         .bind(charger)
-        .bind(plan.status)
+        .bind(plan.status.word())
         .bind(plan.solver.as_str())
         .bind(plan.objective)
         .bind(plan.bound)
