@@ -51,9 +51,10 @@ impl Departing {
                 Err(Stuck::Plan(error)) => return self.give_up(id, &error).await,
                 plan => plan?,
             };
+            let (status, gap, solver) = (plan.status.name(), plan.gap(), plan.solver.clone());
             match self.writer.call(StorePlan { departure_id: id, start, plan }).await? {
                 Storing::Stored(tour) => {
-                    tracing::info!(departure = %id, %tour, %start, "planned");
+                    tracing::info!(departure = %id, %tour, %start, status, solver, gap, "planned");
                     return Ok(());
                 }
                 Storing::Gone => return Ok(()),
