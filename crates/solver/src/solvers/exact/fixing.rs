@@ -9,7 +9,7 @@ impl Relaxation<'_> {
         let network = self.network;
         let (n, arcs, total) = (prizes.len(), network.arcs.len(), self.offset[prizes.len()]);
         let mut reached = vec![f64::INFINITY; self.intervals * total];
-        for (a, &b) in network.from(n).zip(&self.starts) {
+        for (a, &b) in network.leaving(n).zip(&self.starts) {
             let to = network.arcs[a].to;
             let state = self.states(b as usize, to, self.tally.after(0, to));
             reached[state] = network.arcs[a].cost - prizes[to as usize];
@@ -28,7 +28,7 @@ impl Relaxation<'_> {
             for _pass in 0..n.max(1) {
                 let mut again = false;
                 for i in 0..n {
-                    again |= self.push(prizes, b, i, &mut reached);
+                    again |= self.push(prizes, most, b, i, &mut reached);
                 }
                 if !again {
                     break;
@@ -36,8 +36,20 @@ impl Relaxation<'_> {
             }
             for i in 0..n {
                 let begun = &reached[b * total + self.offset[i]..b * total + self.offset[i + 1]];
-                self.graph.live[b * n + i] &= begun.iter().any(|cost| *cost < f64::INFINITY);
-                for a in network.from(i) {
+                let values =
+                    &self.value[b * total + self.offset[i]..b * total + self.offset[i + 1]];
+                let masks = 1 << self.memory.of[i].len();
+                let states = begun.chunks_exact(masks).zip(values.chunks_exact(masks));
+                let place = (b * n + i) * self.tally.states;
+                for (live, (begun, values)) in self.graph.live[place..].iter_mut().zip(states) {
+                    *live &= begun.iter().zip(values).any(|(begun, value)| begun + value < most);
+                }
+                let begun: Vec<f64> = begun
+                    .iter()
+                    .zip(values)
+                    .map(|(&begun, value)| if begun + value < most { begun } else { f64::INFINITY })
+                    .collect();
+                for a in network.leaving(i) {
                     if self.graph.arrives[b * arcs + a] == CLOSED {
                         continue;
                     }
@@ -62,7 +74,7 @@ impl Relaxation<'_> {
         let masks = 1 << self.memory.of[i].len();
         let to = self.network.arcs[a].to;
         let next = self.graph.arrives[b * self.network.arcs.len() + a] as usize;
-        for tally in 0..self.tally.states {
+        for tally in (0..self.tally.states).filter(|&tally| self.live(b, i)[tally]) {
             let ahead = self.states(next, to, self.tally.after(tally, to));
             for mask in (0..masks).filter(|mask| self.back[a] as usize & mask == 0) {
                 pair(tally * masks + mask, ahead + self.next_mask[self.masks[a] + mask] as usize);
@@ -71,23 +83,25 @@ impl Relaxation<'_> {
     }
 
     /// Carries the costs at a candidate over its arcs; whether a cost within the interval fell.
-    fn push(&self, prizes: &[f64], b: usize, i: usize, reached: &mut [f64]) -> bool {
+    fn push(&self, prizes: &[f64], most: f64, b: usize, i: usize, reached: &mut [f64]) -> bool {
         let network = self.network;
         let (arcs, total) = (network.arcs.len(), self.offset[prizes.len()]);
         let own = b * total + self.offset[i]..b * total + self.offset[i + 1];
-        if reached[own.clone()].iter().all(|value| *value == f64::INFINITY) {
+        let open = |(begun, value): (&f64, &f64)| begun + value < most;
+        if !reached[own.clone()].iter().zip(&self.value[own.clone()]).any(open) {
             return false;
         }
         let mut again = false;
-        for a in network.from(i) {
+        for a in network.leaving(i) {
             let next = self.graph.arrives[b * arcs + a];
             if next == CLOSED {
                 continue;
             }
             let cost = network.arcs[a].cost - prizes[network.arcs[a].to as usize];
             self.over(b, i, a, |state, ahead| {
-                let through = reached[own.start + state] + cost;
-                if through < reached[ahead] {
+                let begun = reached[own.start + state];
+                let through = begun + cost;
+                if through < reached[ahead] && begun + self.value[own.start + state] < most {
                     reached[ahead] = through;
                     again |= next as usize == b;
                 }

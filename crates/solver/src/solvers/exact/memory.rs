@@ -22,7 +22,7 @@ impl Memory {
         let n = network.first.len() - 2;
         let mut of = vec![Vec::new(); n];
         for from in 0..n {
-            for arc in &network.arcs[network.from(from)] {
+            for arc in &network.arcs[network.leaving(from)] {
                 of[arc.to as usize].push(from as u32);
             }
         }

@@ -100,6 +100,25 @@ impl Ascent {
         self.best = self.at.clone();
     }
 
+    /// Begins at the multipliers of a knapsack: a visit is charged what it is worth beyond the scarce resource
+    /// that it takes, by the price at which the best candidates just fill the `limit`.
+    pub fn begin_knapsack(&mut self, model: &Model<'_>, takes: &[f64], limit: f64) {
+        let mut order: Vec<usize> = (0..model.len()).filter(|&i| takes[i].is_finite()).collect();
+        let rate = |i: usize| model.gains[i] / takes[i].max(1e-9);
+        order.sort_by(|&a, &b| rate(b).total_cmp(&rate(a)));
+        let mut filled = 0.0;
+        let last = order.iter().find(|&&i| {
+            filled += takes[i];
+            filled > limit
+        });
+        let Some(price) = last.map(|&i| rate(i)) else { return };
+        for &i in &order {
+            self.at.visit[i] = (model.gains[i] - price * takes[i]).max(0.0);
+        }
+        self.at.price(model);
+        self.best = self.at.clone();
+    }
+
     /// The demand that the paths miss or overshoot the most, by its multiplier; not one that is counted.
     pub fn loosest(&self, model: &Model<'_>) -> Option<usize> {
         let weight = |d: usize| {

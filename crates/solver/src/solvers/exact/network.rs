@@ -51,13 +51,13 @@ impl Network {
     }
 
     /// The arcs that leave a place.
-    pub fn from(&self, place: usize) -> std::ops::Range<usize> {
+    pub fn leaving(&self, place: usize) -> std::ops::Range<usize> {
         self.first[place]..self.first[place + 1]
     }
 
     /// Time from the beginning of one charge to the next, at least, in seconds.
     pub fn least_step(&self, model: &Model<'_>) -> f64 {
-        let arcs = (0..model.len()).flat_map(|from| self.from(from).map(move |a| (from, a)));
+        let arcs = (0..model.len()).flat_map(|from| self.leaving(from).map(move |a| (from, a)));
         let steps = arcs.map(|(from, a)| {
             let run = stand(&model.wide, from, self.earliest_s[from]);
             model.wide.step(&run, self.arcs[a].to).arrive_s - self.earliest_s[from]

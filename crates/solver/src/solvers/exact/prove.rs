@@ -5,7 +5,7 @@ use rand_pcg::Pcg64Mcg;
 use super::incumbent::Incumbent;
 use super::memory::{self, Memory};
 use super::model::{Aim, Model};
-use super::multipliers::Ascent;
+use super::multipliers::{Ascent, Multipliers};
 use super::network::Network;
 use super::relaxation::{Reading, Relaxation, Resource};
 use super::search::{End, Search};
@@ -25,17 +25,20 @@ pub struct Proof {
 
 /// Rounds at most; by then the labels of a search have long reached their limit.
 const ROUNDS: u32 = 20;
-/// Steps of the ascent in a round.
+/// Steps of the ascent in the first round and in later ones.
+const FIRST_STEPS: u32 = 30;
 const STEPS: u32 = 15;
-/// Labels of the first search; each next one may make twice as many, within what memory allows.
-const FIRST_LABELS: usize = 2_000;
+/// Labels of the first search; each next one may make three times as many, within what memory allows.
+const FIRST_LABELS: usize = 16_000;
 const MOST_LABEL_BYTES: usize = 600 << 20;
-/// The baseline does one iteration for so many labels.
-const LABELS_PER_ITERATION: usize = 2;
+/// The baseline does one iteration for so many labels; where sensors move, an iteration takes long.
+const LABELS_PER_ITERATION: usize = 12;
+const LABELS_PER_MOVING_ITERATION: usize = 500;
 const MOST_ITERATIONS: u64 = 20_000;
-/// Layers of time or energy, at first and at most.
+/// Layers of time or energy at first; of time at most, where metres are the cost and where gains are.
 const INTERVALS: usize = 96;
 const MOST_INTERVALS: usize = 200;
+const MOST_INTERVALS_OF_GAIN: usize = 800;
 /// Neighbours that every candidate remembers from the beginning.
 const FIRST_MEMORY: usize = 2;
 /// Combinations of counts that the states of paths may take.
@@ -96,15 +99,15 @@ impl<'p, 'a, 'b> Prover<'p, 'a, 'b> {
         let most_labels = MOST_LABEL_BYTES / Search::<W>::LABEL_BYTES;
         let mut labels = FIRST_LABELS;
         for round in 0..ROUNDS {
-            match self.round::<W>(&mut ascent, labels) {
+            match self.round::<W>(&mut ascent, round, labels) {
                 End::Closed => return self.closed(),
                 End::Open(least) => bound = bound.max(least),
             }
             if self.budget.is_spent() {
                 break;
             }
-            labels = (2 * labels).min(most_labels);
-            self.improve(((labels / LABELS_PER_ITERATION) as u64).min(MOST_ITERATIONS));
+            labels = (3 * labels).min(most_labels);
+            self.improve(labels);
             if self.incumbent.suffices() {
                 return self.closed();
             }
@@ -114,15 +117,20 @@ impl<'p, 'a, 'b> Prover<'p, 'a, 'b> {
     }
 
     /// Raises the bound, closes arcs, searches.
-    fn round<const W: usize>(&mut self, ascent: &mut Ascent, labels: usize) -> End {
+    fn round<const W: usize>(&mut self, ascent: &mut Ascent, round: u32, labels: usize) -> End {
         self.paths.read(Reading::Paths);
         ascent.restart();
         ascent.best.bound = f64::NEG_INFINITY;
         let model = self.model;
         let target = target(model, self.incumbent, ascent);
-        for _ in 0..STEPS {
+        let steps = if round == 0 { FIRST_STEPS } else { STEPS };
+        for step in 0..steps {
             if !self.budget.spend() {
                 break;
+            }
+            if step == 2 {
+                // What is closed early makes every further step cheaper.
+                self.fix(&ascent.best);
             }
             let done = ascent.climb(model, &mut self.paths, target);
             if ascent.best.bound >= self.incumbent.cutoff() {
@@ -132,14 +140,17 @@ impl<'p, 'a, 'b> Prover<'p, 'a, 'b> {
                 break;
             }
         }
-        let m = &ascent.best;
-        let most = self.incumbent.cutoff() - m.constant + m.rounding();
         for reading in [Reading::Paths, Reading::Tours] {
             self.paths.read(reading);
-            self.paths.evaluate(&m.prizes);
-            self.paths.fix(&m.prizes, most);
+            self.fix(&ascent.best);
         }
         self.search::<W>(ascent, labels)
+    }
+
+    fn fix(&mut self, multipliers: &Multipliers) {
+        let most = self.incumbent.cutoff() - multipliers.constant + multipliers.rounding();
+        self.paths.evaluate(&multipliers.prizes);
+        self.paths.fix(&multipliers.prizes, most);
     }
 
     fn search<const W: usize>(&mut self, ascent: &Ascent, labels: usize) -> End {
@@ -155,7 +166,37 @@ impl<'p, 'a, 'b> Prover<'p, 'a, 'b> {
         {
             ascent.begin(model, order);
         }
+        if !model.length_counts {
+            let (takes, limit) = self.takes();
+            if limit.is_finite() {
+                ascent.begin_knapsack(model, &takes, limit);
+            }
+        }
         ascent
+    }
+
+    /// What each candidate takes of the resource, with a typical way to it; and how much there is.
+    fn takes(&self) -> (Vec<f64>, f64) {
+        let (model, instance) = (self.model, &self.model.wide);
+        let charger = &instance.scenario.charger;
+        let near_m = |i: usize| {
+            let others = (0..model.len()).filter(|&other| other != i);
+            others.map(|other| apart_m(model, other, i)).fold(f64::INFINITY, f64::min)
+        };
+        let takes = |i: usize| {
+            let charge_j = instance.candidates[i].charge_j(0.0);
+            match self.paths.resource() {
+                Resource::Time => charge_j / charger.transfer_w + near_m(i) / charger.speed_mps,
+                Resource::Energy => charge_j + charger.travel_jpm * near_m(i),
+                Resource::Stops => f64::INFINITY,
+            }
+        };
+        let limit = match self.paths.resource() {
+            Resource::Time => instance.timespan_s,
+            Resource::Energy => instance.capacity_j,
+            Resource::Stops => f64::INFINITY,
+        };
+        ((0..model.len()).map(takes).collect(), limit)
     }
 
     /// Makes the paths more like tours: the candidates on each way round remember where it began, and
@@ -165,11 +206,7 @@ impl<'p, 'a, 'b> Prover<'p, 'a, 'b> {
         self.paths.evaluate(&ascent.best.prizes);
         let path = self.paths.path(&ascent.best.prizes);
         let mut memory = self.paths.memory().clone();
-        for (end, &stop) in path.iter().enumerate() {
-            if let Some(begin) = path[..end].iter().rposition(|&other| other == stop) {
-                memory.learn(stop, &path[begin + 1..end], most.min(memory::MOST));
-            }
-        }
+        learn(&mut memory, &path, most);
         let mut tally = self.paths.tally().clone();
         if let Some(demand) = ascent.loosest(self.model) {
             let states = tally.states * (self.model.demands[demand].needs as usize + 1);
@@ -181,7 +218,7 @@ impl<'p, 'a, 'b> Prover<'p, 'a, 'b> {
             }
         }
         if self.paths.resource() == Resource::Time
-            && self.paths.intervals() < MOST_INTERVALS
+            && self.paths.intervals() < self.most_intervals()
             && self.late(&path)
         {
             self.paths.split(self.model);
@@ -191,6 +228,10 @@ impl<'p, 'a, 'b> Prover<'p, 'a, 'b> {
         } else {
             self.paths.refine(self.paths.memory().clone(), tally);
         }
+    }
+
+    fn most_intervals(&self) -> usize {
+        if self.model.length_counts { MOST_INTERVALS } else { MOST_INTERVALS_OF_GAIN }
     }
 
     /// Whether a relaxed path misses a deadline, which rounding of times hides.
@@ -203,8 +244,11 @@ impl<'p, 'a, 'b> Prover<'p, 'a, 'b> {
         }) || instance.finish(&run).arrive_s > instance.timespan_s
     }
 
-    /// Lets the baseline improve the incumbent for some iterations.
-    fn improve(&mut self, iterations: u64) {
+    /// Lets the baseline improve the incumbent, in proportion to the labels of the next search.
+    fn improve(&mut self, labels: usize) {
+        let per_iteration =
+            if self.model.wide.moving { LABELS_PER_MOVING_ITERATION } else { LABELS_PER_ITERATION };
+        let iterations = ((labels / per_iteration) as u64).min(MOST_ITERATIONS);
         let outer = std::cell::RefCell::new(&mut *self.budget);
         let stop = |done: u64| done >= iterations || done > 0 && !outer.borrow_mut().spend();
         let start = self.incumbent.order.clone().unwrap_or_default();
@@ -221,6 +265,17 @@ impl<'p, 'a, 'b> Prover<'p, 'a, 'b> {
         let bound = bound.min(self.incumbent.cost).min(self.incumbent.beyond);
         Proof { order: self.incumbent.order.clone(), bound, closed: false }
     }
+}
+
+/// Makes the candidates on each way round remember where it began; whether one learned.
+fn learn(memory: &mut Memory, path: &[u32], most: usize) -> bool {
+    let mut learned = false;
+    for (end, &stop) in path.iter().enumerate() {
+        if let Some(begin) = path[..end].iter().rposition(|&other| other == stop) {
+            learned |= memory.learn(stop, &path[begin + 1..end], most.min(memory::MOST));
+        }
+    }
+    learned
 }
 
 /// The resource whose limits bind the most.

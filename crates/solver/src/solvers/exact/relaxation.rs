@@ -35,7 +35,7 @@ pub enum Reading {
 pub struct Graph {
     /// By interval and arc, the interval at which the arc arrives.
     pub arrives: Vec<u16>,
-    /// By interval and candidate, whether it may be there.
+    /// By interval, candidate and state of the tally, whether it may be there.
     pub live: Vec<bool>,
 }
 
@@ -142,8 +142,9 @@ impl<'n> Relaxation<'n> {
                         graph.arrives[b * arcs + a] = CLOSED;
                     }
                 }
-                for i in 0..n {
-                    graph.live[b * n + i] &= before.live[b / 2 * n + i];
+                let layer = n * self.tally.states;
+                for place in 0..layer {
+                    graph.live[b * layer + place] &= before.live[b / 2 * layer + place];
                 }
             }
         }
@@ -171,8 +172,14 @@ impl<'n> Relaxation<'n> {
     }
 
     /// Changes what each candidate remembers and what is counted.
+    /// The new tally counts the demands of the old one first, so that what was closed stays so.
     pub fn refine(&mut self, memory: Memory, tally: Tally) {
         let n = memory.of.len();
+        let before = self.tally.states;
+        for graph in [&mut self.graph, &mut self.other] {
+            let places = graph.live.chunks_exact(before);
+            graph.live = places.flat_map(|live| live.repeat(tally.states / before)).collect();
+        }
         self.offset = vec![0; n + 1];
         for i in 0..n {
             self.offset[i + 1] = self.offset[i] + (tally.states << memory.of[i].len());
@@ -183,7 +190,7 @@ impl<'n> Relaxation<'n> {
         self.back.clear();
         for from in 0..n {
             let near = &memory.of[from];
-            for arc in &network.arcs[network.from(from)] {
+            for arc in &network.arcs[network.leaving(from)] {
                 self.masks.push(self.next_mask.len());
                 let bit = near.binary_search(&arc.to).map_or(0, |bit| 1 << bit);
                 self.back.push(bit);
@@ -207,9 +214,10 @@ impl<'n> Relaxation<'n> {
     fn lay_out(&mut self, model: &Model<'_>) -> Graph {
         let instance = &model.wide;
         let (n, arcs) = (model.len(), self.network.arcs.len());
+        let tallies = self.tally.states;
         let mut graph = Graph {
             arrives: vec![CLOSED; self.intervals * arcs],
-            live: vec![false; self.intervals * n],
+            live: vec![false; self.intervals * n * tallies],
         };
         let start = instance.departure();
         let home = instance.finish(&start);
@@ -217,7 +225,7 @@ impl<'n> Relaxation<'n> {
             self.empty = if model.length_counts { home.distance_m } else { 0.0 };
         }
         let per_m = instance.scenario.charger.travel_jpm;
-        let firsts = self.network.from(n).map(|a| {
+        let firsts = self.network.leaving(n).map(|a| {
             let to = self.network.arcs[a].to;
             let energy_j = per_m * leg_m(instance, instance.start(), to as usize)
                 + self.network.charge_j[to as usize];
@@ -240,7 +248,7 @@ impl<'n> Relaxation<'n> {
                     continue;
                 }
                 run.distance_m = 0.0;
-                graph.live[b * n + i] = true;
+                graph.live[(b * n + i) * tallies..(b * n + i + 1) * tallies].fill(true);
                 let spent_j = if self.resource == Resource::Energy {
                     begin.max(self.network.energy_j[i])
                 } else {
@@ -253,7 +261,7 @@ impl<'n> Relaxation<'n> {
                     let length_m = leg_m(instance, i, instance.end());
                     self.ends[b * n + i] = if model.length_counts { length_m } else { 0.0 };
                 }
-                for arc in self.network.from(i) {
+                for arc in self.network.leaving(i) {
                     graph.arrives[b * arcs + arc] = self.arrival(model, i, arc, b, &run, spent_j);
                 }
             }
@@ -322,18 +330,27 @@ impl<'n> Relaxation<'n> {
             for _pass in 0..n.max(1) {
                 let mut again = false;
                 for i in 0..n {
-                    again |= self.graph.live[b * n + i] && self.pull(prizes, b, i);
+                    again |= self.pull(prizes, b, i);
                 }
                 if !again {
                     break;
                 }
             }
         }
-        self.from_start(prizes).map_or(self.empty(), |(value, ..)| value.min(self.empty()))
+        self.first_arc(prizes).map_or(self.empty(), |(value, ..)| value.min(self.empty()))
+    }
+
+    /// States of the tally that are open at a candidate.
+    pub(super) fn live(&self, b: usize, i: usize) -> &[bool] {
+        let n = self.offset.len() - 1;
+        &self.graph.live[(b * n + i) * self.tally.states..(b * n + i + 1) * self.tally.states]
     }
 
     /// Values at a candidate from those ahead of it; whether one fell that the interval itself looks at.
     fn pull(&mut self, prizes: &[f64], b: usize, i: usize) -> bool {
+        if self.live(b, i).iter().all(|live| !live) {
+            return false;
+        }
         let network = self.network;
         let (n, arcs, total) = (prizes.len(), network.arcs.len(), self.offset[prizes.len()]);
         let masks = 1 << self.memory.of[i].len();
@@ -342,8 +359,9 @@ impl<'n> Relaxation<'n> {
         best.clear();
         best.resize(masks * self.tally.states, f64::INFINITY);
         best[masks * self.tally.met()..].fill(self.ends[b * n + i]);
+        let live = self.live(b, i);
         let mut within = false;
-        for a in network.from(i) {
+        for a in network.leaving(i) {
             let next = self.graph.arrives[b * arcs + a];
             if next == CLOSED {
                 continue;
@@ -356,6 +374,9 @@ impl<'n> Relaxation<'n> {
             let masks_ahead = 1 << self.memory.of[to as usize].len();
             let back = self.back[a] as usize;
             for (state, best) in best.chunks_exact_mut(masks).enumerate() {
+                if !live[state] {
+                    continue;
+                }
                 let states = states + self.tally.after(state, to) * masks_ahead;
                 let ahead = &self.value[states..states + masks_ahead];
                 for (mask, (best, &next_mask)) in best.iter_mut().zip(next_masks).enumerate() {
@@ -365,6 +386,9 @@ impl<'n> Relaxation<'n> {
                     }
                 }
             }
+        }
+        if !live[self.tally.met()] {
+            best[masks * self.tally.met()..].fill(f64::INFINITY);
         }
         let values = &mut self.value[own..own + best.len()];
         let fell = within && values.iter().zip(&best).any(|(old, new)| new < old);
@@ -386,8 +410,8 @@ impl<'n> Relaxation<'n> {
     }
 
     /// The best first arc: cost to the end, interval and candidate.
-    fn from_start(&self, prizes: &[f64]) -> Option<(f64, usize, u32)> {
-        let firsts = self.network.from(prizes.len()).zip(&self.starts).map(|(a, &b)| {
+    fn first_arc(&self, prizes: &[f64]) -> Option<(f64, usize, u32)> {
+        let firsts = self.network.leaving(prizes.len()).zip(&self.starts).map(|(a, &b)| {
             let (arc, b) = (self.network.arcs[a], b as usize);
             let value = self.value[self.states(b, arc.to, self.tally.after(0, arc.to))];
             (arc.cost - prizes[arc.to as usize] + value, b, arc.to)
@@ -400,7 +424,7 @@ impl<'n> Relaxation<'n> {
         let network = self.network;
         let (n, arcs) = (prizes.len(), network.arcs.len());
         let mut path = Vec::new();
-        let Some((value, mut b, mut at)) = self.from_start(prizes) else { return path };
+        let Some((value, mut b, mut at)) = self.first_arc(prizes) else { return path };
         if value >= self.empty() || value == f64::INFINITY {
             return path;
         }
@@ -410,7 +434,7 @@ impl<'n> Relaxation<'n> {
             let i = at as usize;
             let end = if tally == self.tally.met() { self.ends[b * n + i] } else { f64::INFINITY };
             let mut best = (end, None);
-            for a in network.from(i) {
+            for a in network.leaving(i) {
                 let next = self.graph.arrives[b * arcs + a];
                 if next == CLOSED || self.back[a] as usize & mask != 0 {
                     continue;
