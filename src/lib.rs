@@ -6,6 +6,7 @@ pub mod clock;
 pub mod config;
 pub mod demo;
 pub mod domain;
+pub mod explainer;
 pub mod grpc;
 pub mod lifecycle;
 pub mod listen;

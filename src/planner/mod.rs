@@ -4,7 +4,9 @@
 mod contest;
 mod record;
 mod scenario;
+mod stored;
 #[cfg(test)]
 mod tests;
 
 pub use contest::{Contest, PlanError, plan};
+pub use stored::{Unreadable, stored};

@@ -181,7 +181,7 @@ async fn a_plan_is_shown_in_every_form_and_never_changes() {
 async fn what_is_not_there_is_a_problem() {
     let edge = Edge::new().await;
     let stranger = "01890a5d-ac96-774b-bcce-b302099a8057";
-    for end in ["", ".svg", "/scenario"] {
+    for end in ["", ".svg", "/scenario", "/explanation"] {
         edge.refused(&format!("/v1/plans/{stranger}{end}"), 404, &[]).await;
         edge.refused(&format!("/v1/plans/nothing{end}"), 400, &["id"]).await;
     }
