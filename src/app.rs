@@ -15,8 +15,9 @@ use crate::explainer::Explainer;
 use crate::grpc::{Edge, Server, ServerError};
 use crate::lifecycle::Lifecycle;
 use crate::listen::Counted;
-use crate::rest;
-use crate::scheduler::{self, Handle, Running};
+use crate::metrics::Metrics;
+use crate::rest::{self, RestState};
+use crate::scheduler::{self, Running};
 use crate::store::{Store, StoreError};
 
 /// Why the service did not start, or did not end well.
@@ -88,9 +89,11 @@ impl App {
             opened.map_err(|source| AppError::Open { path: path.display().to_string(), source })?;
         let cancel = CancellationToken::new();
         let settings = config.settings();
+        let metrics = Metrics::default();
         let (reads, writer) = (store.reads.clone(), store.writer.clone());
         let (handle, running) =
-            scheduler::start(store, clock.clone(), settings, cancel.clone()).await?;
+            scheduler::start(store, clock.clone(), settings, metrics.clone(), cancel.clone())
+                .await?;
         let listening = async {
             let grpc = listen("grpc.listen", config.grpc.listen).await?;
             let rest = listen("rest.listen", config.rest.listen).await?;
@@ -107,12 +110,13 @@ impl App {
         let soft = lifecycle.soft.clone();
         let edge = Edge::new(handle.clone(), config.grpc_limits(), soft.clone());
         let rest = Counted::new(rest, config.limits.connections);
+        let state = RestState::new(handle.reads().clone(), metrics.clone(), soft.clone());
         let servers = [
             tokio::spawn(async move { Ok(Server::new(edge, grpc).run().await?) }),
-            tokio::spawn(serve_rest(rest, handle, soft)),
+            tokio::spawn(serve_rest(rest, state, soft)),
         ];
         let soft = lifecycle.soft.clone();
-        let explainer = Explainer::new(reads, writer, clock, config.explainer(), soft);
+        let explainer = Explainer::new(reads, writer, clock, config.explainer(), metrics, soft);
         Ok(Self {
             grpc: grpc_at,
             rest: rest_at,
@@ -183,11 +187,10 @@ async fn listen(
 
 async fn serve_rest(
     listener: Counted,
-    handle: Handle,
+    state: RestState,
     stop: CancellationToken,
 ) -> Result<(), AppError> {
-    let router = rest::router(rest::RestState::new(handle.reads().clone(), stop.clone()));
-    axum::serve(listener, router)
+    axum::serve(listener, rest::router(state))
         .with_graceful_shutdown(stop.cancelled_owned())
         .await
         .map_err(AppError::Rest)

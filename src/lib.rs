@@ -10,6 +10,7 @@ pub mod explainer;
 pub mod grpc;
 pub mod lifecycle;
 pub mod listen;
+pub mod metrics;
 pub mod planner;
 pub mod rest;
 pub mod scheduler;

@@ -12,6 +12,7 @@ use voltour_solver::stop::StopRule;
 use super::{Explainer, Settings};
 use crate::clock::{Clock, SystemClock};
 use crate::domain::PlanId;
+use crate::metrics::Metrics;
 use crate::planner::{Contest, plan};
 use crate::store::fixture::Bench;
 use crate::store::{Attempt, BeginExplanation, EndExplanation, Explained, StorePlan};
@@ -44,7 +45,8 @@ fn explainer(bench: &Bench) -> (Explainer, CancellationToken) {
     let (reads, writer) = (bench.store.reads.clone(), bench.store.writer.clone());
     let settings = Settings { budget: Duration::from_secs(60), seed: 0 };
     let (cancel, clock) = (CancellationToken::new(), std::sync::Arc::new(SystemClock));
-    (Explainer::new(reads, writer, clock, settings, cancel.clone()), cancel)
+    let metrics = Metrics::default();
+    (Explainer::new(reads, writer, clock, settings, metrics, cancel.clone()), cancel)
 }
 
 async fn explained(bench: &Bench, id: PlanId) -> Explained {

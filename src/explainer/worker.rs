@@ -10,6 +10,7 @@ use voltour_solver::explain::explain;
 use super::work::{Done, Explain, Work};
 use crate::clock::{Clock, plus};
 use crate::domain::{PlanId, Refusal};
+use crate::metrics::{ExplanationOutcome, Metrics};
 use crate::store::{Attempt, BeginExplanation, EndExplanation, Reads, StoreError, Writer};
 
 /// How long it waits after the database failed it.
@@ -31,6 +32,7 @@ pub struct Explainer {
     writer: Writer,
     clock: Arc<dyn Clock>,
     settings: Settings,
+    metrics: Metrics,
     cancel: CancellationToken,
     pub(super) explain: Explain,
 }
@@ -51,9 +53,10 @@ impl Explainer {
         writer: Writer,
         clock: Arc<dyn Clock>,
         settings: Settings,
+        metrics: Metrics,
         cancel: CancellationToken,
     ) -> Self {
-        Self { reads, writer, clock, settings, cancel, explain }
+        Self { reads, writer, clock, settings, metrics, cancel, explain }
     }
 
     /// Runs until it is cancelled, or until the writer has ended. It must end before the writer does for an
@@ -91,13 +94,16 @@ impl Explainer {
             return Ok(false);
         }
         let attempt = self.attempt(plan_id).await?;
-        match &attempt {
-            Attempt::Explained(_) => tracing::debug!(plan = %plan_id, "explained"),
-            Attempt::Interrupted => tracing::info!(plan = %plan_id, "explained after the restart"),
-            // Its reason is logged where it is known.
-            Attempt::GivenUp => {}
-        }
+        let outcome = match &attempt {
+            Attempt::Explained(_) => Some(ExplanationOutcome::Done),
+            Attempt::GivenUp => Some(ExplanationOutcome::Failed),
+            Attempt::Interrupted => None,
+        };
         self.writer.call(EndExplanation { plan_id, attempt }).await?;
+        tracing::debug!(plan = %plan_id, ?outcome, "an explanation has ended");
+        if let Some(outcome) = outcome {
+            self.metrics.explained(outcome);
+        }
         Ok(true)
     }
 

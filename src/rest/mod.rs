@@ -7,6 +7,7 @@ mod explanations;
 mod health;
 mod immutable;
 mod lists;
+mod metrics;
 mod openapi;
 mod plans;
 mod problem;

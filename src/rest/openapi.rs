@@ -11,7 +11,7 @@ use utoipa::OpenApi;
 use super::problem::Problem;
 use super::query::Params;
 use super::view::PlanStatus;
-use super::{explanations, health, lists, plans};
+use super::{explanations, health, lists, metrics, plans};
 
 #[derive(OpenApi)]
 #[openapi(
@@ -32,6 +32,7 @@ use super::{explanations, health, lists, plans};
         plans::plan,
         plans::scenario,
         explanations::explanation,
+        metrics::metrics,
         health::healthz,
         health::readyz,
     ),
@@ -75,6 +76,7 @@ mod tests {
             paths,
             [
                 "/healthz",
+                "/metrics",
                 "/readyz",
                 "/v1/departures",
                 "/v1/departures/{id}",

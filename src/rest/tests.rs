@@ -14,6 +14,7 @@ use voltour_solver::solvers::plan_from_order;
 
 use super::{RestState, router};
 use crate::clock::plus;
+use crate::metrics::Metrics;
 use crate::store::fixture::Bench;
 use crate::store::{NewPlan, StorePlan, pack};
 
@@ -47,7 +48,7 @@ impl Edge {
     async fn new() -> Self {
         let bench = Bench::new().await;
         let shutdown = CancellationToken::new();
-        let state = RestState::new(bench.store.reads.clone(), shutdown.clone());
+        let state = RestState::new(bench.store.reads.clone(), Metrics::default(), shutdown.clone());
         Self { bench, state, shutdown }
     }
 

@@ -23,6 +23,7 @@ mod get_next;
 mod idempotency;
 mod life;
 mod limits;
+mod metrics;
 mod operator;
 mod pages;
 mod process;
