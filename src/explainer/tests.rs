@@ -6,7 +6,7 @@ use tokio_util::sync::CancellationToken;
 use voltour_solver::explain::{Explanation, explain};
 use voltour_solver::plan::Plan;
 use voltour_solver::scenario::Scenario;
-use voltour_solver::solvers::SolverName;
+use voltour_solver::solvers::{SolverName, solve};
 use voltour_solver::stop::StopRule;
 
 use super::{Explainer, Settings};
@@ -22,6 +22,7 @@ async fn planned(bench: &Bench, charger: &str) -> PlanId {
     let batch = bench.closed(bench.announce(charger).await).await;
     let contest = Contest {
         solver: SolverName::Greedy,
+        solve,
         seed: 0,
         budget: Duration::ZERO,
         latest: bench.clock.now(),

@@ -6,6 +6,7 @@ use std::time::Duration;
 
 use tokio::sync::Semaphore;
 use tokio_util::sync::CancellationToken;
+use voltour_solver::solvers::solve;
 
 use super::Settings;
 use crate::clock::{Clock, minus, seconds};
@@ -105,6 +106,7 @@ impl Departing {
         let spare = lead.saturating_sub(budget);
         let contest = Contest {
             solver: self.settings.solver,
+            solve,
             seed: self.settings.seed,
             budget,
             latest: minus(batch.start, TO_STORE.min(spare / 2)),
