@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::{Candidate, DemandSet, Travel, earliest};
 use crate::coverage::{self, Region};
 use crate::scenario::{Objective, Place, Scenario};
-use crate::tolerance::solver_limit;
+use crate::tolerance::{solver_limit, tolerance};
 use crate::tour::Run;
 
 /// What an insertion or an order costs in the resource that the instance is short of.
@@ -110,8 +110,11 @@ impl<'a> Instance<'a> {
         let timespan_s = charger.timespan_s.map_or(f64::INFINITY, solver_limit);
         let drains = candidates.iter().any(|c| c.drain_w > 0.0);
         let waits = candidates.iter().any(|c| c.ready_s > 0.0);
-        // Within the tolerance of its deadline a sensor may just have run empty: that is no break point.
-        let saturates = |c: &Candidate| c.due_s.min(timespan_s) > solver_limit(c.empty_s());
+        // Within the tolerance of its deadline, and the rounding of a document's numbers, a sensor may just
+        // have run empty: that is no break point.
+        let saturates = |c: &Candidate| {
+            c.due_s.min(timespan_s) > solver_limit(c.empty_s()) + tolerance(c.empty_s())
+        };
         let affine_energy = charger.capacity_j.is_none() || !drains || !waits;
         let travel = Travel::new(scenario, &candidates);
         Self {

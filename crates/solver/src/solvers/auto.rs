@@ -2,7 +2,7 @@
 
 use rand_pcg::Pcg64Mcg;
 
-use super::entry::Found;
+use super::entry::{Claim, Found};
 use super::{Budget, SolverName, baseline, greedy};
 use crate::instance::Instance;
 
@@ -11,7 +11,7 @@ pub fn auto(instance: &Instance<'_>, rng: &mut Pcg64Mcg, budget: &mut Budget<'_>
     let order = greedy::greedy(instance, budget);
     let iterations = vec![("greedy".to_owned(), budget.iterations())];
     budget.done(SolverName::Greedy);
-    let first = Found { order, solver: SolverName::Greedy, iterations };
+    let first = Found { order, solver: SolverName::Greedy, iterations, claim: Claim::None };
     let second = baseline::solve(instance, &first.order, rng, budget);
     budget.done(SolverName::Baseline);
     vec![first, second]

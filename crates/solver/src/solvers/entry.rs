@@ -4,11 +4,12 @@ use rand_pcg::Pcg64Mcg;
 use rand_pcg::rand_core::SeedableRng;
 
 use super::plan_of::plan_of;
-use super::{Budget, SolverName, auto, baseline, greedy, random};
+use super::{Budget, SolverName, auto, baseline, exact, greedy, random};
 use crate::instance::Instance;
 use crate::plan::{Plan, Status};
-use crate::scenario::Scenario;
+use crate::scenario::{Objective, Scenario};
 use crate::stop::StopRule;
+use crate::tolerance::tolerance;
 use crate::tour::{Tour, Value};
 
 /// How to solve.
@@ -55,6 +56,18 @@ pub(super) struct Found {
     pub order: Vec<u32>,
     pub solver: SolverName,
     pub iterations: Vec<(String, u64)>,
+    pub claim: Claim,
+}
+
+/// What a solver has proven, about every tour that the check accepts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Claim {
+    /// Nothing.
+    None,
+    /// No feasible tour has a better objective than this; it may be infinite.
+    Bound(f64),
+    /// No feasible tour exists.
+    Infeasible,
 }
 
 /// Solves a scenario. Same scenario, solver, seed and number of iterations: same plan.
@@ -79,6 +92,7 @@ pub fn solve_compiled(
         order,
         solver: options.solver,
         iterations: vec![(phase.to_owned(), budget.iterations())],
+        claim: Claim::None,
     };
     let found = match options.solver {
         SolverName::Auto => auto::auto(instance, &mut rng, &mut budget),
@@ -92,8 +106,8 @@ pub fn solve_compiled(
         SolverName::Random => {
             vec![single(random::random(instance, &mut rng, &mut budget), "walks", &budget)]
         }
+        SolverName::Exact => vec![exact::solve(instance, &[], &mut rng, &mut budget)],
         SolverName::Dqn
-        | SolverName::Exact
         | SolverName::Acs
         | SolverName::Dp
         | SolverName::Mst
@@ -103,12 +117,20 @@ pub fn solve_compiled(
     Ok(outcome(instance, &found))
 }
 
-/// The plan of the best tour found, the earlier among equals; each solver is a contender.
-fn outcome(instance: &Instance<'_>, found: &[Found]) -> Outcome {
+/// The plan of the best tour found, the earlier among equals; each solver is a contender. What one has
+/// proven holds for the tours of all.
+fn outcome(instance: &Instance<'_>, all: &[Found]) -> Outcome {
     let value = |found: &Found| Value::of(instance, &Tour::new(instance, &found.order));
-    let best = found.iter().min_by(|a, b| value(a).compare(&value(b)));
+    let best = all.iter().min_by(|a, b| value(a).compare(&value(b)));
+    let plan = |found: &Found| {
+        let mut plan = plan_of(instance, &found.order, found.solver.name());
+        for other in all {
+            claimed(instance, &mut plan, other.claim);
+        }
+        plan
+    };
     let contender = |found: &Found| {
-        let plan = plan_of(instance, &found.order, found.solver.name());
+        let plan = plan(found);
         Contender {
             solver: plan.solver,
             objective: plan.objective,
@@ -116,11 +138,28 @@ fn outcome(instance: &Instance<'_>, found: &[Found]) -> Outcome {
             iterations: found.iterations.iter().map(|(_, iterations)| iterations).sum(),
         }
     };
-    let (order, solver) = best.map_or((&[][..], SolverName::Auto), |f| (&f.order, f.solver));
     Outcome {
-        plan: plan_of(instance, order, solver.name()),
-        iterations: found.iter().flat_map(|found| found.iterations.clone()).collect(),
-        contenders: found.iter().map(contender).collect(),
+        plan: best.map_or_else(|| plan_of(instance, &[], SolverName::Auto.name()), plan),
+        iterations: all.iter().flat_map(|found| found.iterations.clone()).collect(),
+        contenders: all.iter().map(contender).collect(),
+    }
+}
+
+/// Adds to a plan what is proven.
+fn claimed(instance: &Instance<'_>, plan: &mut Plan, claim: Claim) {
+    match claim {
+        Claim::Infeasible if plan.status == Status::BestEffort => plan.status = Status::Infeasible,
+        Claim::Bound(bound) if bound.is_finite() => {
+            // Rounding may leave a bound on the wrong side of the objective that it proves.
+            let minimised = instance.scenario.objective == Objective::MinDistance;
+            let missed = if minimised { plan.objective - bound } else { bound - plan.objective };
+            let proven = plan.status.is_feasible() && missed <= tolerance(plan.objective);
+            if proven {
+                plan.status = Status::Optimal;
+            }
+            plan.bound = Some(if proven { plan.objective } else { bound });
+        }
+        _ => {}
     }
 }
 

@@ -9,6 +9,7 @@ mod recreate;
 mod ruin;
 mod search;
 
+pub(super) use search::search;
 pub use search::solve;
 
 #[cfg(test)]

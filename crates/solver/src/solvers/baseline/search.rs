@@ -9,7 +9,7 @@ use super::ruin::ruin;
 use crate::instance::{Effort, Instance};
 use crate::local_search::{Neighbours, descend, squeeze};
 use crate::scenario::Objective;
-use crate::solvers::entry::Found;
+use crate::solvers::entry::{Claim, Found};
 use crate::solvers::partial::{Partial, gain};
 use crate::solvers::{Budget, SolverName, enumerate, greedy, shortcut};
 use crate::tour::Value;
@@ -41,7 +41,12 @@ pub fn solve(
     rng: &mut Pcg64Mcg,
     budget: &mut Budget<'_>,
 ) -> Found {
-    let found = |order, iterations| Found { order, solver: SolverName::Baseline, iterations };
+    let found = |order, iterations| Found {
+        order,
+        solver: SolverName::Baseline,
+        iterations,
+        claim: Claim::None,
+    };
     let before = budget.iterations();
     if instance.len() <= enumerate::MOST {
         let order = enumerate::enumerate(instance, budget);
@@ -52,7 +57,7 @@ pub fn solve(
 }
 
 /// [`solve`] without the enumeration of small instances.
-pub(super) fn search(
+pub(in crate::solvers) fn search(
     instance: &Instance<'_>,
     start: &[u32],
     rng: &mut Pcg64Mcg,
@@ -78,7 +83,7 @@ pub(super) fn search(
     let ruined = budget.iterations() - built;
     let phases = [("construction", built - before), ("ruin and recreate", ruined)];
     let iterations = phases.into_iter().map(|(phase, count)| (phase.to_owned(), count)).collect();
-    Found { order, solver: SolverName::Baseline, iterations }
+    Found { order, solver: SolverName::Baseline, iterations, claim: Claim::None }
 }
 
 struct Search<'a, 'b> {

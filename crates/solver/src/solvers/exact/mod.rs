@@ -1,5 +1,27 @@
 //! Proof: the best tour with a bound that shows it, or that there is none.
+//!
+//! One machine serves every combination of objective and constraints. A [`Model`] states what is proven, with
+//! limits as wide as the check lets them be. Lower bounds come from relaxed paths (ng-paths, layered by
+//! the scarcest resource) with Lagrangian prizes for what must be served; they become tighter round by
+//! round, as paths remember more neighbours, count more demands and keep finer times. Under these bounds a
+//! best-first search over labels, with dominance, either ends, which is the proof, or gives a bound.
 
+mod bits;
+mod fixing;
+mod incumbent;
+mod memory;
+mod model;
+mod multipliers;
+mod network;
+mod prove;
+mod relaxation;
+mod search;
+mod solve;
+mod tally;
 mod verdict;
 
+use incumbent::Incumbent;
+use model::{Aim, Model};
+use prove::prove;
+pub(super) use solve::solve;
 pub use verdict::{Verdict, decide};

@@ -1,9 +1,11 @@
 //! Whether any tour keeps every constraint.
 
+use rand_pcg::Pcg64Mcg;
+use rand_pcg::rand_core::SeedableRng;
+
+use super::{Aim, Incumbent, Model, prove};
 use crate::instance::Instance;
 use crate::solvers::Budget;
-use crate::solvers::enumerate;
-use crate::tour::{Tour, Value};
 
 /// What is known of an instance.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -18,14 +20,13 @@ pub enum Verdict {
 
 /// Decides whether any tour keeps every constraint.
 pub fn decide(instance: &Instance<'_>, budget: &mut Budget<'_>) -> Verdict {
-    if instance.len() > enumerate::MOST {
-        return Verdict::Unknown;
-    }
-    match enumerate::enumerate(instance, budget) {
-        Some(order) if Value::of(instance, &Tour::new(instance, &order)).is_feasible() => {
-            Verdict::Feasible(order)
-        }
-        _ if budget.is_spent() => Verdict::Unknown,
-        _ => Verdict::Infeasible,
+    let model = Model::new(instance, Aim::AnyTour);
+    let mut incumbent = Incumbent::none(&model);
+    let mut rng = Pcg64Mcg::seed_from_u64(0);
+    let proof = prove(&model, &mut incumbent, &mut rng, budget);
+    match proof.order {
+        Some(order) => Verdict::Feasible(order),
+        None if proof.closed && incumbent.beyond == f64::INFINITY => Verdict::Infeasible,
+        None => Verdict::Unknown,
     }
 }

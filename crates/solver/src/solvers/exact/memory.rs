@@ -1,0 +1,58 @@
+//! What a relaxed path remembers: at each candidate, which of its neighbours it has visited.
+//!
+//! The ng-path relaxation (R. Baldacci, A. Mingozzi, R. Roberti, "New route relaxation and pricing
+//! strategies for the vehicle routing problem", 2011): a path may come back to a candidate once it has
+//! passed one that does not remember it.
+
+use super::network::Network;
+
+/// Neighbours that a candidate remembers at most.
+pub const MOST: usize = 12;
+
+/// For each candidate the neighbours that it remembers; a state is a candidate with a subset of them.
+#[derive(Clone, Debug)]
+pub struct Memory {
+    /// By candidate.
+    pub of: Vec<Vec<u32>>,
+}
+
+impl Memory {
+    /// Each candidate remembers the `size` nearest that have an arc to it.
+    pub fn nearest(network: &Network, distance: impl Fn(usize, usize) -> f64, size: usize) -> Self {
+        let n = network.first.len() - 2;
+        let mut of = vec![Vec::new(); n];
+        for from in 0..n {
+            for arc in &network.arcs[network.from(from)] {
+                of[arc.to as usize].push(from as u32);
+            }
+        }
+        for (i, near) in of.iter_mut().enumerate() {
+            near.sort_by(|&a, &b| distance(a as usize, i).total_cmp(&distance(b as usize, i)));
+            near.truncate(size);
+            near.sort_unstable();
+        }
+        Self { of }
+    }
+
+    /// Makes the candidates between two visits of `back` remember it. Whether one learned it.
+    pub fn learn(&mut self, back: u32, between: &[u32], most: usize) -> bool {
+        let mut learned = false;
+        for &candidate in between {
+            let near = &mut self.of[candidate as usize];
+            if near.len() < most.min(MOST)
+                && let Err(place) = near.binary_search(&back)
+            {
+                near.insert(place, back);
+                learned = true;
+            }
+        }
+        learned
+    }
+
+    /// The subset of what `candidate` remembers for which `visited` holds, as a mask.
+    #[inline]
+    pub fn mask(&self, candidate: u32, visited: impl Fn(u32) -> bool) -> usize {
+        let near = self.of[candidate as usize].iter().enumerate();
+        near.map(|(bit, &other)| usize::from(visited(other)) << bit).sum()
+    }
+}

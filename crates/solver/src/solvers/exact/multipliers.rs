@@ -1,0 +1,192 @@
+//! Lagrangian multipliers: demands and "at most once" move from the paths into prizes.
+
+use super::Model;
+use super::relaxation::Relaxation;
+
+/// Prizes that make relaxed paths serve what must be served, once each, and the bound that they prove.
+#[derive(Clone, Debug)]
+pub struct Multipliers {
+    /// By demand, what one member more is worth; not negative.
+    demand: Vec<f64>,
+    /// By candidate, what a visit is charged; not negative.
+    visit: Vec<f64>,
+    /// By candidate, what a visit takes off the cost.
+    pub prizes: Vec<f64>,
+    /// What does not depend on the path.
+    pub constant: f64,
+    /// The bound on the cost of every feasible tour.
+    pub bound: f64,
+}
+
+impl Multipliers {
+    /// None: only the gains count.
+    pub fn zero(model: &Model<'_>) -> Self {
+        let mut zero = Self {
+            demand: vec![0.0; model.demands.len()],
+            visit: vec![0.0; model.len()],
+            prizes: Vec::new(),
+            constant: 0.0,
+            bound: f64::NEG_INFINITY,
+        };
+        zero.price(model);
+        zero
+    }
+
+    fn price(&mut self, model: &Model<'_>) {
+        let of = |i: usize| model.of[i].iter().map(|&d| self.demand[d as usize]).sum::<f64>();
+        self.prizes = (0..model.len()).map(|i| model.gains[i] + of(i) - self.visit[i]).collect();
+        let needs = model.demands.iter().zip(&self.demand).map(|(d, m)| f64::from(d.needs) * m);
+        self.constant = needs.sum::<f64>() - self.visit.iter().sum::<f64>();
+    }
+
+    /// How far rounding may have moved the bound.
+    pub fn rounding(&self) -> f64 {
+        let sum: f64 = self.demand.iter().chain(&self.visit).sum();
+        1e-12 * (1.0 + sum + self.constant.abs())
+    }
+}
+
+/// Ascent of the bound by subgradients, deflected by the direction before.
+#[derive(Debug)]
+pub struct Ascent {
+    /// The best multipliers so far.
+    pub best: Multipliers,
+    pub at: Multipliers,
+    direction: Vec<f64>,
+    pub step: f64,
+    stalled: u32,
+    /// By demand, how far paths are from its needs on average, the later ones weighing more.
+    misses: Vec<f64>,
+    /// By demand, whether paths are made to meet it.
+    counted: Vec<bool>,
+}
+
+impl Ascent {
+    pub fn new(model: &Model<'_>) -> Self {
+        let zero = Multipliers::zero(model);
+        Self {
+            best: zero.clone(),
+            at: zero,
+            direction: vec![0.0; model.demands.len() + model.len()],
+            step: 1.0,
+            stalled: 0,
+            misses: vec![0.0; model.demands.len()],
+            counted: vec![false; model.demands.len()],
+        }
+    }
+
+    /// Begins at multipliers under which the stops of a known tour are worth what they cost.
+    pub fn begin(&mut self, model: &Model<'_>, order: &[u32]) {
+        let instance = &model.wide;
+        let places: Vec<usize> = std::iter::once(instance.start())
+            .chain(order.iter().map(|&c| c as usize))
+            .chain([instance.end()])
+            .collect();
+        let mut shares = vec![(0.0, 0.0); model.demands.len()];
+        for leg in places.windows(3) {
+            let half =
+                0.5 * (instance.distance_m(leg[0], leg[1]) + instance.distance_m(leg[1], leg[2]));
+            let of = &model.of[leg[1]];
+            for &d in of {
+                let (sum, count) = &mut shares[d as usize];
+                *sum += half / of.len() as f64;
+                *count += 1.0;
+            }
+        }
+        for (multiplier, (sum, count)) in self.at.demand.iter_mut().zip(shares) {
+            *multiplier = if count > 0.0 { sum / count } else { 0.0 };
+        }
+        self.at.price(model);
+        self.best = self.at.clone();
+    }
+
+    /// The demand that the paths miss or overshoot the most, by its multiplier; not one that is counted.
+    pub fn loosest(&self, model: &Model<'_>) -> Option<usize> {
+        let weight = |d: usize| {
+            self.best.demand[d] * self.misses[d] / f64::from(model.demands[d].needs + 1).ln()
+        };
+        let open = (0..model.demands.len())
+            .filter(|&d| model.demands[d].members.len() > 1 && !self.counted[d]);
+        open.max_by(|&a, &b| weight(a).total_cmp(&weight(b))).filter(|&d| weight(d) > 0.0)
+    }
+
+    /// Takes a demand out of the prizes, as paths are made to meet it.
+    pub fn count(&mut self, model: &Model<'_>, demand: usize) {
+        self.counted[demand] = true;
+        self.best.demand[demand] = 0.0;
+        self.best.price(model);
+    }
+
+    /// Begins again from the best multipliers, as when the paths have changed.
+    pub fn restart(&mut self) {
+        self.at = self.best.clone();
+        self.direction.fill(0.0);
+        self.step = (1.4 * self.step).max(0.1);
+        self.stalled = 0;
+    }
+
+    /// One evaluation and one step towards `target`, a cost that some tour has or may have. Whether the path
+    /// proves that no further step helps.
+    pub fn climb(&mut self, model: &Model<'_>, paths: &mut Relaxation<'_>, target: f64) -> bool {
+        let value = paths.evaluate(&self.at.prizes);
+        self.at.bound = self.at.constant + value - self.at.rounding();
+        let path = paths.path(&self.at.prizes);
+        if self.at.bound > self.best.bound {
+            let gained = self.at.bound - self.best.bound;
+            if gained > 1e-4 * (target - self.at.bound).abs() {
+                self.stalled = 0;
+            }
+            self.best = self.at.clone();
+        } else {
+            self.stalled += 1;
+        }
+        if value == f64::INFINITY || self.best.bound >= target {
+            return true;
+        }
+        if self.stalled >= 4 {
+            self.stalled = 0;
+            self.step *= 0.7;
+        }
+        self.go(model, &path, target)
+    }
+
+    fn go(&mut self, model: &Model<'_>, path: &[u32], target: f64) -> bool {
+        let m = model.demands.len();
+        let mut slope: Vec<f64> = model.demands.iter().map(|d| f64::from(d.needs)).collect();
+        slope.extend(std::iter::repeat_n(-1.0, model.len()));
+        for &stop in path {
+            slope[m + stop as usize] += 1.0;
+            for &d in &model.of[stop as usize] {
+                slope[d as usize] -= 1.0;
+            }
+        }
+        for (d, misses) in self.misses.iter_mut().enumerate() {
+            *misses = 0.85 * *misses + 0.15 * slope[d].abs();
+            if self.counted[d] {
+                slope[d] = 0.0;
+            }
+        }
+        let multipliers = self.at.demand.iter().chain(&self.at.visit);
+        // A multiplier at zero that would fall stays where it is.
+        for (slope, &multiplier) in slope.iter_mut().zip(multipliers) {
+            if multiplier <= 0.0 && *slope < 0.0 {
+                *slope = 0.0;
+            }
+        }
+        let norm: f64 = slope.iter().map(|g| g * g).sum();
+        if norm == 0.0 {
+            return true;
+        }
+        for (direction, slope) in self.direction.iter_mut().zip(&slope) {
+            *direction = slope + 0.4 * *direction;
+        }
+        let size: f64 = self.direction.iter().map(|g| g * g).sum();
+        let step = self.step * (target - self.at.bound).max(0.0) / size.max(norm);
+        let (demand, visit) = (&mut self.at.demand, &mut self.at.visit);
+        for (multiplier, direction) in demand.iter_mut().chain(visit).zip(&self.direction) {
+            *multiplier = (*multiplier + step * direction).max(0.0);
+        }
+        self.at.price(model);
+        false
+    }
+}

@@ -1,0 +1,456 @@
+//! Lower bounds by dynamic programming over relaxed paths.
+//!
+//! A state is a candidate, the interval of the scarce resource (time, energy or stops) at which it is
+//! charged, and which of its remembered neighbours were visited; its value is the least that going on
+//! to the end costs. Resources are rounded down to the beginning of their interval, so that every tour is
+//! a path. Prizes, taken off the cost of each visit, come from Lagrangian multipliers.
+
+use super::Model;
+use super::memory::Memory;
+use super::network::{Network, leg_m, stand};
+use super::tally::Tally;
+
+/// The resource by which paths are layered.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Resource {
+    /// Seconds since the departure, when charging begins.
+    Time,
+    /// Joules travelled and delivered, once charged.
+    Energy,
+    /// Stops made.
+    Stops,
+}
+
+/// Which states a graph must keep open.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Reading {
+    /// Those of paths from the start, rounded down at every stop: enough to bound all tours.
+    Paths,
+    /// Those in which a tour may really be, which is later than its path: what completion bounds need.
+    Tours,
+}
+
+/// The arcs and states that an improving tour may use.
+#[derive(Clone, Debug, Default)]
+pub struct Graph {
+    /// By interval and arc, the interval at which the arc arrives.
+    pub arrives: Vec<u16>,
+    /// By interval and candidate, whether it may be there.
+    pub live: Vec<bool>,
+}
+
+/// An arc that cannot be used from an interval.
+pub(super) const CLOSED: u16 = u16::MAX;
+
+/// The relaxed paths of an instance.
+#[derive(Debug)]
+pub struct Relaxation<'n> {
+    pub(super) network: &'n Network,
+    pub(super) resource: Resource,
+    pub(super) intervals: usize,
+    pub(super) width: f64,
+    pub(super) memory: Memory,
+    pub(super) tally: Tally,
+    /// By candidate, where its states begin in a layer; last, their number. Within a candidate, masks run
+    /// fastest, then the states of the tally.
+    pub(super) offset: Vec<usize>,
+    /// The graph that is evaluated.
+    pub(super) graph: Graph,
+    /// The graph of the other reading.
+    other: Graph,
+    /// How the evaluated graph is read.
+    pub(super) reading: Reading,
+    /// By interval and candidate, what ending the tour costs; infinite where it cannot.
+    pub(super) ends: Vec<f64>,
+    /// By arc from the start, the interval at which it arrives.
+    pub(super) starts: Vec<u16>,
+    /// What the tour without stops costs; infinite if it breaks a limit.
+    pub(super) empty: f64,
+    /// By arc and mask, the mask at its end.
+    pub(super) next_mask: Vec<u16>,
+    /// By arc, where its masks begin.
+    pub(super) masks: Vec<usize>,
+    /// By arc, the bit under which its tail remembers its head.
+    pub(super) back: Vec<u32>,
+    /// By interval and state, the least cost of going on.
+    pub(super) value: Vec<f64>,
+    /// Values of one candidate while they are computed.
+    scratch: Vec<f64>,
+}
+
+impl<'n> Relaxation<'n> {
+    /// Lays out the layers: `intervals` of the resource up to `horizon`.
+    pub fn new(
+        model: &Model<'_>,
+        network: &'n Network,
+        resource: Resource,
+        intervals: usize,
+        horizon: f64,
+        memory: Memory,
+    ) -> Self {
+        let n = model.len();
+        let width = match resource {
+            Resource::Stops => 1.0,
+            _ => horizon / intervals as f64,
+        };
+        let mut relaxation = Self {
+            network,
+            resource,
+            intervals,
+            width,
+            memory: Memory { of: Vec::new() },
+            tally: Tally::new(model, Vec::new()),
+            offset: Vec::new(),
+            graph: Graph::default(),
+            other: Graph::default(),
+            reading: Reading::Paths,
+            ends: vec![f64::INFINITY; intervals * n],
+            starts: Vec::new(),
+            empty: f64::INFINITY,
+            next_mask: Vec::new(),
+            masks: Vec::new(),
+            back: Vec::new(),
+            value: Vec::new(),
+            scratch: Vec::new(),
+        };
+        relaxation.graph = relaxation.lay_out(model);
+        relaxation.other = relaxation.graph.clone();
+        relaxation.refine(memory, Tally::new(model, Vec::new()));
+        relaxation
+    }
+
+    /// Evaluates the other graph from now on.
+    pub fn read(&mut self, reading: Reading) {
+        if self.reading != reading {
+            std::mem::swap(&mut self.graph, &mut self.other);
+            self.reading = reading;
+        }
+    }
+
+    /// Halves the intervals. What is closed stays so: it was for everything later in its interval too.
+    pub fn split(&mut self, model: &Model<'_>) {
+        let (n, arcs) = (model.len(), self.network.arcs.len());
+        self.intervals *= 2;
+        self.width /= 2.0;
+        self.ends = vec![f64::INFINITY; self.intervals * n];
+        let fresh = self.lay_out(model);
+        for graph in [&mut self.graph, &mut self.other] {
+            let before = std::mem::replace(graph, fresh.clone());
+            for b in 0..self.intervals {
+                for a in 0..arcs {
+                    if before.arrives[b / 2 * arcs + a] == CLOSED {
+                        graph.arrives[b * arcs + a] = CLOSED;
+                    }
+                }
+                for i in 0..n {
+                    graph.live[b * n + i] &= before.live[b / 2 * n + i];
+                }
+            }
+        }
+        self.value = vec![f64::INFINITY; self.intervals * self.offset[n]];
+    }
+
+    /// Number of values that a memory and a tally ask for.
+    pub fn size(&self, memory: &Memory, states: usize) -> usize {
+        self.intervals * states * memory.of.iter().map(|near| 1 << near.len()).sum::<usize>()
+    }
+
+    /// Number of layers.
+    pub fn intervals(&self) -> usize {
+        self.intervals
+    }
+
+    /// What is counted on the way.
+    pub fn tally(&self) -> &Tally {
+        &self.tally
+    }
+
+    /// What each candidate remembers.
+    pub fn memory(&self) -> &Memory {
+        &self.memory
+    }
+
+    /// Changes what each candidate remembers and what is counted.
+    pub fn refine(&mut self, memory: Memory, tally: Tally) {
+        let n = memory.of.len();
+        self.offset = vec![0; n + 1];
+        for i in 0..n {
+            self.offset[i + 1] = self.offset[i] + (tally.states << memory.of[i].len());
+        }
+        let network = self.network;
+        self.masks.clear();
+        self.next_mask.clear();
+        self.back.clear();
+        for from in 0..n {
+            let near = &memory.of[from];
+            for arc in &network.arcs[network.from(from)] {
+                self.masks.push(self.next_mask.len());
+                let bit = near.binary_search(&arc.to).map_or(0, |bit| 1 << bit);
+                self.back.push(bit);
+                let ahead = &memory.of[arc.to as usize];
+                let own = ahead.binary_search(&(from as u32)).map_or(0, |bit| 1_u16 << bit);
+                let kept: Vec<u16> = near
+                    .iter()
+                    .map(|other| ahead.binary_search(other).map_or(0, |bit| 1_u16 << bit))
+                    .collect();
+                for mask in 0..1_usize << near.len() {
+                    let held = kept.iter().enumerate().filter(|(bit, _)| mask >> bit & 1 == 1);
+                    self.next_mask.push(held.fold(own, |next, (_, bit)| next | bit));
+                }
+            }
+        }
+        self.value = vec![f64::INFINITY; self.intervals * self.offset[n]];
+        self.memory = memory;
+        self.tally = tally;
+    }
+
+    fn lay_out(&mut self, model: &Model<'_>) -> Graph {
+        let instance = &model.wide;
+        let (n, arcs) = (model.len(), self.network.arcs.len());
+        let mut graph = Graph {
+            arrives: vec![CLOSED; self.intervals * arcs],
+            live: vec![false; self.intervals * n],
+        };
+        let start = instance.departure();
+        let home = instance.finish(&start);
+        if home.arrive_s <= instance.timespan_s && instance.energy_j(&home) <= instance.capacity_j {
+            self.empty = if model.length_counts { home.distance_m } else { 0.0 };
+        }
+        let per_m = instance.scenario.charger.travel_jpm;
+        let firsts = self.network.from(n).map(|a| {
+            let to = self.network.arcs[a].to;
+            let energy_j = per_m * leg_m(instance, instance.start(), to as usize)
+                + self.network.charge_j[to as usize];
+            match self.resource {
+                Resource::Time => self.interval(instance.step(&start, to).arrive_s) as u16,
+                Resource::Energy => self.interval(energy_j) as u16,
+                Resource::Stops => 0,
+            }
+        });
+        self.starts = firsts.collect();
+        for b in 0..self.intervals {
+            let begin = b as f64 * self.width;
+            for i in 0..n {
+                let first = self.interval(self.least(i));
+                if !self.network.earliest_s[i].is_finite() || b < first {
+                    continue;
+                }
+                let mut run = self.at(model, i, begin);
+                if run.arrive_s > instance.candidates[i].due_s {
+                    continue;
+                }
+                run.distance_m = 0.0;
+                graph.live[b * n + i] = true;
+                let spent_j = if self.resource == Resource::Energy {
+                    begin.max(self.network.energy_j[i])
+                } else {
+                    self.network.energy_j[i]
+                };
+                let home = instance.finish(&run);
+                let leg_j =
+                    instance.scenario.charger.travel_jpm * leg_m(instance, i, instance.end());
+                if home.arrive_s <= instance.timespan_s && spent_j + leg_j <= instance.capacity_j {
+                    let length_m = leg_m(instance, i, instance.end());
+                    self.ends[b * n + i] = if model.length_counts { length_m } else { 0.0 };
+                }
+                for arc in self.network.from(i) {
+                    graph.arrives[b * arcs + arc] = self.arrival(model, i, arc, b, &run, spent_j);
+                }
+            }
+        }
+        graph
+    }
+
+    /// The resource that being at a candidate has taken at least.
+    fn least(&self, candidate: usize) -> f64 {
+        match self.resource {
+            Resource::Time => self.network.earliest_s[candidate],
+            Resource::Energy => self.network.energy_j[candidate],
+            Resource::Stops => 0.0,
+        }
+    }
+
+    /// The charger at a candidate, as early as the interval lets it be.
+    fn at(&self, model: &Model<'_>, candidate: usize, begin: f64) -> crate::tour::Run {
+        let earliest_s = self.network.earliest_s[candidate];
+        let arrive_s =
+            if self.resource == Resource::Time { begin.max(earliest_s) } else { earliest_s };
+        stand(&model.wide, candidate, arrive_s)
+    }
+
+    fn arrival(
+        &self,
+        model: &Model<'_>,
+        from: usize,
+        arc: usize,
+        b: usize,
+        run: &crate::tour::Run,
+        spent_j: f64,
+    ) -> u16 {
+        let instance = &model.wide;
+        let to = self.network.arcs[arc].to;
+        let next = instance.step(run, to);
+        if !instance.in_time(&next) || next.depart_s > instance.timespan_s {
+            return CLOSED;
+        }
+        let leg_j = instance.scenario.charger.travel_jpm * leg_m(instance, from, to as usize);
+        let energy_j = spent_j + leg_j + self.network.charge_j[to as usize];
+        if energy_j > instance.capacity_j {
+            return CLOSED;
+        }
+        match self.resource {
+            Resource::Time => self.interval(next.arrive_s) as u16,
+            Resource::Energy => self.interval(energy_j) as u16,
+            Resource::Stops if b + 1 < self.intervals => b as u16 + 1,
+            Resource::Stops => CLOSED,
+        }
+    }
+
+    /// The interval that an amount of the resource lies in.
+    #[inline]
+    fn interval(&self, amount: f64) -> usize {
+        // A hair less, so that rounding never makes a path later than it is.
+        ((amount * (1.0 - 1e-12) / self.width) as usize).min(self.intervals - 1)
+    }
+
+    /// Values of all states for these prizes; the least cost of a path from start to end.
+    pub fn evaluate(&mut self, prizes: &[f64]) -> f64 {
+        let (n, total) = (prizes.len(), self.offset[prizes.len()]);
+        for b in (0..self.intervals).rev() {
+            self.value[b * total..(b + 1) * total].fill(f64::INFINITY);
+            // Paths that stay within an interval are followed until none of them gets cheaper.
+            for _pass in 0..n.max(1) {
+                let mut again = false;
+                for i in 0..n {
+                    again |= self.graph.live[b * n + i] && self.pull(prizes, b, i);
+                }
+                if !again {
+                    break;
+                }
+            }
+        }
+        self.from_start(prizes).map_or(self.empty(), |(value, ..)| value.min(self.empty()))
+    }
+
+    /// Values at a candidate from those ahead of it; whether one fell that the interval itself looks at.
+    fn pull(&mut self, prizes: &[f64], b: usize, i: usize) -> bool {
+        let network = self.network;
+        let (n, arcs, total) = (prizes.len(), network.arcs.len(), self.offset[prizes.len()]);
+        let masks = 1 << self.memory.of[i].len();
+        let own = b * total + self.offset[i];
+        let mut best = std::mem::take(&mut self.scratch);
+        best.clear();
+        best.resize(masks * self.tally.states, f64::INFINITY);
+        best[masks * self.tally.met()..].fill(self.ends[b * n + i]);
+        let mut within = false;
+        for a in network.from(i) {
+            let next = self.graph.arrives[b * arcs + a];
+            if next == CLOSED {
+                continue;
+            }
+            within |= next as usize == b;
+            let to = network.arcs[a].to;
+            let states = next as usize * total + self.offset[to as usize];
+            let cost = network.arcs[a].cost - prizes[to as usize];
+            let next_masks = &self.next_mask[self.masks[a]..self.masks[a] + masks];
+            let masks_ahead = 1 << self.memory.of[to as usize].len();
+            let back = self.back[a] as usize;
+            for (state, best) in best.chunks_exact_mut(masks).enumerate() {
+                let states = states + self.tally.after(state, to) * masks_ahead;
+                let ahead = &self.value[states..states + masks_ahead];
+                for (mask, (best, &next_mask)) in best.iter_mut().zip(next_masks).enumerate() {
+                    let value = cost + ahead[next_mask as usize];
+                    if value < *best && back & mask == 0 {
+                        *best = value;
+                    }
+                }
+            }
+        }
+        let values = &mut self.value[own..own + best.len()];
+        let fell = within && values.iter().zip(&best).any(|(old, new)| new < old);
+        values.copy_from_slice(&best);
+        self.scratch = best;
+        fell
+    }
+
+    /// What the tour without stops costs; infinite if it may not be made.
+    fn empty(&self) -> f64 {
+        if self.tally.met() == 0 { self.empty } else { f64::INFINITY }
+    }
+
+    /// Where the values of a candidate begin.
+    #[inline]
+    pub(super) fn states(&self, b: usize, candidate: u32, tally: usize) -> usize {
+        let i = candidate as usize;
+        b * self.offset[self.offset.len() - 1] + self.offset[i] + (tally << self.memory.of[i].len())
+    }
+
+    /// The best first arc: cost to the end, interval and candidate.
+    fn from_start(&self, prizes: &[f64]) -> Option<(f64, usize, u32)> {
+        let firsts = self.network.from(prizes.len()).zip(&self.starts).map(|(a, &b)| {
+            let (arc, b) = (self.network.arcs[a], b as usize);
+            let value = self.value[self.states(b, arc.to, self.tally.after(0, arc.to))];
+            (arc.cost - prizes[arc.to as usize] + value, b, arc.to)
+        });
+        firsts.min_by(|a, b| a.0.total_cmp(&b.0))
+    }
+
+    /// The candidates of a cheapest path of the last evaluation, in order.
+    pub fn path(&self, prizes: &[f64]) -> Vec<u32> {
+        let network = self.network;
+        let (n, arcs) = (prizes.len(), network.arcs.len());
+        let mut path = Vec::new();
+        let Some((value, mut b, mut at)) = self.from_start(prizes) else { return path };
+        if value >= self.empty() || value == f64::INFINITY {
+            return path;
+        }
+        let (mut mask, mut tally) = (0, self.tally.after(0, at));
+        loop {
+            path.push(at);
+            let i = at as usize;
+            let end = if tally == self.tally.met() { self.ends[b * n + i] } else { f64::INFINITY };
+            let mut best = (end, None);
+            for a in network.from(i) {
+                let next = self.graph.arrives[b * arcs + a];
+                if next == CLOSED || self.back[a] as usize & mask != 0 {
+                    continue;
+                }
+                let to = network.arcs[a].to;
+                let ahead = self.next_mask[self.masks[a] + mask] as usize;
+                let counted = self.tally.after(tally, to);
+                let value = network.arcs[a].cost - prizes[to as usize]
+                    + self.value[self.states(next as usize, to, counted) + ahead];
+                if value < best.0 {
+                    best = (value, Some((next as usize, to, ahead, counted)));
+                }
+            }
+            match best.1 {
+                // A path in one interval could go round; no tour has more stops than this.
+                Some(next) if path.len() < 4 * self.intervals + n => (b, at, mask, tally) = next,
+                _ => return path,
+            }
+        }
+    }
+
+    /// The least cost of going on from a candidate, of which those that `visited` holds for are served.
+    #[inline]
+    pub fn go_on(
+        &self,
+        candidate: u32,
+        amount: f64,
+        stops: usize,
+        tally: usize,
+        visited: impl Fn(u32) -> bool,
+    ) -> f64 {
+        let b = match self.resource {
+            Resource::Stops => (stops - 1).min(self.intervals - 1),
+            _ => self.interval(amount),
+        };
+        self.value[self.states(b, candidate, tally) + self.memory.mask(candidate, visited)]
+    }
+
+    /// The resource by which paths are layered.
+    pub fn resource(&self) -> Resource {
+        self.resource
+    }
+}

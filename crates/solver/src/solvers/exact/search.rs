@@ -1,0 +1,309 @@
+//! Best-first search over partial tours, with dominance, under completion bounds.
+//!
+//! A label is a partial tour. One dominates another at the same stop where whatever follows the other can
+//! follow it no worse. Labels whose bound does not beat the incumbent are dropped, so that an empty queue
+//! proves the incumbent.
+
+use std::cmp::Ordering;
+use std::collections::{BinaryHeap, HashMap};
+
+use super::bits::Bits;
+use super::multipliers::Multipliers;
+use super::relaxation::{Relaxation, Resource};
+use super::{Incumbent, Model};
+use crate::solvers::Budget;
+use crate::tour::Run;
+
+/// How a search ended.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum End {
+    /// Every partial tour was followed or ruled out.
+    Closed,
+    /// Too many labels, or the budget is spent: no tour costs less than this.
+    Open(f64),
+}
+
+#[derive(Clone, Debug)]
+struct Label<const W: usize> {
+    run: Run,
+    served: Bits<W>,
+    /// Demands not yet met.
+    open: Bits<W>,
+    gain: f64,
+    /// Multipliers' constant less the prizes collected.
+    reduced: f64,
+    parent: u32,
+    /// The label before it under the same key.
+    next: u32,
+    stops: u32,
+    /// State of the paths' tally.
+    tally: u16,
+    dominated: bool,
+}
+
+const NONE: u32 = u32::MAX;
+
+/// The best label is the one with the least bound, the longest among equals.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Entry {
+    bound: f64,
+    stops: u32,
+    label: u32,
+}
+
+impl Eq for Entry {}
+
+impl Ord for Entry {
+    fn cmp(&self, other: &Self) -> Ordering {
+        let bound = other.bound.total_cmp(&self.bound);
+        bound.then(self.stops.cmp(&other.stops)).then(other.label.cmp(&self.label))
+    }
+}
+
+impl PartialOrd for Entry {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+type Key<const W: usize> = (Bits<W>, Bits<W>, u32);
+
+/// A search under fixed completion bounds.
+pub struct Search<'s, 'a, const W: usize> {
+    model: &'s Model<'a>,
+    paths: &'s Relaxation<'s>,
+    multipliers: &'s Multipliers,
+    members: Vec<Bits<W>>,
+    labels: Vec<Label<W>>,
+    heap: BinaryHeap<Entry>,
+    heads: HashMap<Key<W>, u32, rustc_hash::FxBuildHasher>,
+    incumbent: &'s mut Incumbent,
+    /// The runs that may follow a label, while it is expanded.
+    ahead: Vec<Run>,
+}
+
+impl<'s, 'a, const W: usize> Search<'s, 'a, W> {
+    /// Memory that a label takes, with its places in the queue and under its key.
+    pub const LABEL_BYTES: usize =
+        size_of::<Label<W>>() + size_of::<Entry>() + 2 * size_of::<(Key<W>, u32)>();
+
+    pub fn new(
+        model: &'s Model<'a>,
+        paths: &'s Relaxation<'s>,
+        multipliers: &'s Multipliers,
+        incumbent: &'s mut Incumbent,
+    ) -> Self {
+        let members = model.demands.iter().map(|d| Bits::of(d.members.iter().copied())).collect();
+        Self {
+            model,
+            paths,
+            multipliers,
+            members,
+            labels: Vec::new(),
+            heap: BinaryHeap::new(),
+            heads: HashMap::default(),
+            incumbent,
+            ahead: Vec::new(),
+        }
+    }
+
+    /// Searches until nothing is left, or `most` labels were made, or the budget is spent.
+    pub fn run(&mut self, most: usize, budget: &mut Budget<'_>) -> End {
+        let model = self.model;
+        let root = Label {
+            run: model.wide.departure(),
+            served: Bits::EMPTY,
+            open: Bits::of(0..model.demands.len() as u32),
+            gain: 0.0,
+            reduced: self.multipliers.constant,
+            parent: NONE,
+            next: NONE,
+            stops: 0,
+            tally: 0,
+            dominated: false,
+        };
+        self.complete(&root, NONE);
+        let bound = self.multipliers.bound;
+        self.labels.push(root);
+        self.heap.push(Entry { bound, stops: 0, label: 0 });
+        while let Some(entry) = self.heap.pop() {
+            if entry.bound >= self.incumbent.cutoff() {
+                break;
+            }
+            if self.labels.len() >= most || !budget.spend() {
+                return End::Open(entry.bound);
+            }
+            if !self.labels[entry.label as usize].dominated {
+                self.expand(entry);
+            }
+            if self.incumbent.suffices() {
+                return End::Closed;
+            }
+        }
+        End::Closed
+    }
+
+    fn expand(&mut self, entry: Entry) {
+        let model = self.model;
+        let label = self.labels[entry.label as usize].clone();
+        let mut pool = Bits::<W>::EMPTY;
+        if model.useful_only {
+            for d in label.open.iter() {
+                pool = pool.union(&self.members[d as usize]);
+            }
+        } else {
+            pool = Bits::of(0..model.len() as u32);
+        }
+        let mut ahead = std::mem::take(&mut self.ahead);
+        ahead.clear();
+        let mut in_reach = label.served;
+        for to in pool.minus(&label.served).iter() {
+            let run = model.wide.step(&label.run, to);
+            if model.wide.in_time(&run)
+                && run.depart_s <= model.wide.timespan_s
+                && model.wide.energy_j(&run) <= model.wide.capacity_j
+            {
+                in_reach.insert(to);
+                ahead.push(run);
+            }
+        }
+        // Where no detour is a short cut, who cannot be reached now never can.
+        let met =
+            |d: u32| self.members[d as usize].common(&in_reach) >= model.demands[d as usize].needs;
+        if !model.direct || label.open.iter().all(met) {
+            for run in &ahead {
+                self.extend(&label, entry, *run);
+            }
+        }
+        self.ahead = ahead;
+    }
+
+    fn extend(&mut self, label: &Label<W>, entry: Entry, run: Run) {
+        let model = self.model;
+        let to = run.node;
+        let mut served = label.served;
+        served.insert(to);
+        let gain = label.gain + model.gains[to as usize];
+        let reduced =
+            label.reduced - self.multipliers.prizes[to as usize] + model.gains[to as usize];
+        let amount = match self.paths.resource() {
+            Resource::Time => run.arrive_s,
+            Resource::Energy => model.wide.energy_j(&run),
+            Resource::Stops => 0.0,
+        };
+        let stops = label.stops + 1;
+        let tally = self.paths.tally().after(label.tally as usize, to);
+        let ahead = self.paths.go_on(to, amount, stops as usize, tally, |c| served.contains(c));
+        let bound =
+            model.cost(run.distance_m, gain) + reduced + ahead - self.multipliers.rounding();
+        let bound = bound.max(entry.bound);
+        if bound >= self.incumbent.cutoff() {
+            return;
+        }
+        let mut open = label.open;
+        for &d in &model.of[to as usize] {
+            if open.contains(d)
+                && self.members[d as usize].common(&served) >= model.demands[d as usize].needs
+            {
+                open.remove(d);
+            }
+        }
+        let new = Label {
+            run,
+            served,
+            open,
+            gain,
+            reduced,
+            parent: entry.label,
+            next: NONE,
+            stops,
+            tally: tally as u16,
+            dominated: false,
+        };
+        if let Some(new) = self.insert(new) {
+            self.heap.push(Entry { bound, stops, label: new });
+            let label = self.labels[new as usize].clone();
+            self.complete(&label, new);
+        }
+    }
+
+    /// Adds a label unless another dominates it.
+    fn insert(&mut self, mut new: Label<W>) -> Option<u32> {
+        let key = self.key(&new);
+        let head = self.heads.entry(key).or_insert(NONE);
+        let mut other = *head;
+        while other != NONE {
+            let old = &self.labels[other as usize];
+            if !old.dominated && dominates(self.model, old, &new) {
+                return None;
+            }
+            other = old.next;
+        }
+        other = *head;
+        while other != NONE {
+            let old = &self.labels[other as usize];
+            let (next, falls) = (old.next, dominates(self.model, &new, old));
+            if falls {
+                self.labels[other as usize].dominated = true;
+            }
+            other = next;
+        }
+        new.next = *head;
+        let index = self.labels.len() as u32;
+        *head = index;
+        self.labels.push(new);
+        Some(index)
+    }
+
+    /// What must be equal for one label to take another's place: where only open demands matter, those
+    /// and their members not yet served; else all that is served.
+    fn key(&self, label: &Label<W>) -> Key<W> {
+        if !self.model.useful_only {
+            return (label.served, Bits::EMPTY, label.run.node);
+        }
+        let mut useful = Bits::<W>::EMPTY;
+        for d in label.open.iter() {
+            useful = useful.union(&self.members[d as usize]);
+        }
+        (useful.minus(&label.served), label.open, label.run.node)
+    }
+
+    /// Takes a label as a whole tour, if it is one.
+    fn complete(&mut self, label: &Label<W>, index: u32) {
+        if !label.open.is_empty() {
+            return;
+        }
+        let model = self.model;
+        let home = model.wide.finish(&label.run);
+        let cost = model.cost(home.distance_m, label.gain);
+        if model.wide.keeps_limits(&home) && cost < self.incumbent.cutoff() {
+            let order = self.order(index);
+            self.incumbent.offer(model, order, cost);
+        }
+    }
+
+    fn order(&self, mut index: u32) -> Vec<u32> {
+        let mut order = Vec::new();
+        while index != NONE {
+            let label = &self.labels[index as usize];
+            if label.parent != NONE {
+                order.push(label.run.node);
+            }
+            index = label.parent;
+        }
+        order.reverse();
+        order
+    }
+}
+
+fn dominates<const W: usize>(model: &Model<'_>, a: &Label<W>, b: &Label<W>) -> bool {
+    let distance = !model.length_counts || a.run.distance_m <= b.run.distance_m;
+    let energy = !model.energy_counts || model.wide.energy_j(&a.run) <= model.wide.energy_j(&b.run);
+    let time = if model.wide.moving && (model.length_counts || model.energy_counts) {
+        // Two labels at one moving sensor stand in different places unless they are there at once.
+        a.run.arrive_s == b.run.arrive_s
+    } else {
+        !model.time_counts || a.run.depart_s <= b.run.depart_s
+    };
+    distance && energy && time
+}

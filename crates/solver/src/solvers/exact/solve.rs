@@ -1,0 +1,89 @@
+//! The solver `exact`: the baseline's tour first, then the proof that it, or a better one, is the best.
+
+use rand_pcg::Pcg64Mcg;
+
+use super::{Aim, Incumbent, Model, prove};
+use crate::instance::Instance;
+use crate::scenario::Objective;
+use crate::solvers::entry::{Claim, Found};
+use crate::solvers::{Budget, SolverName, baseline};
+use crate::tour::{Tour, Value};
+
+/// Iterations of the baseline before the first bound: a good tour of a small instance.
+const FIRST: u64 = 60;
+/// Iterations of the baseline before it is asked whether any tour is feasible at all.
+const BEFORE_DOUBT: u64 = 2_000;
+/// Iterations of the baseline that make a proven tour shorter, or earlier, without changing its objective.
+const POLISH: u64 = 400;
+
+/// The best tour with its proof, or what is known when the budget ends. `start` is a legal tour to begin
+/// with; it may be empty.
+pub fn solve(
+    instance: &Instance<'_>,
+    start: &[u32],
+    rng: &mut Pcg64Mcg,
+    budget: &mut Budget<'_>,
+) -> Found {
+    let before = budget.iterations();
+    let mut order = improved(instance, start, FIRST, rng, budget);
+    let mut claim = Claim::None;
+    if !is_feasible(instance, &order) {
+        order = improved(instance, &order, BEFORE_DOUBT, rng, budget);
+    }
+    if !is_feasible(instance, &order) {
+        let model = Model::new(instance, Aim::AnyTour);
+        let mut any = Incumbent::none(&model);
+        let proof = prove(&model, &mut any, rng, budget);
+        match proof.order {
+            Some(feasible) => order = feasible,
+            None if proof.closed && any.beyond == f64::INFINITY => claim = Claim::Infeasible,
+            None => {}
+        }
+    }
+    if claim == Claim::None {
+        let model = Model::new(instance, Aim::Optimum);
+        let mut incumbent = Incumbent::none(&model);
+        incumbent.offer_order(&model, order.clone());
+        let proof = prove(&model, &mut incumbent, rng, budget);
+        claim = match (proof.order, proof.closed) {
+            (Some(best), _) => {
+                order = best;
+                if proof.closed && instance.scenario.objective != Objective::MinDistance {
+                    order = improved(instance, &order, POLISH, rng, budget);
+                }
+                Claim::Bound(objective(instance, proof.bound))
+            }
+            (None, true) if incumbent.beyond == f64::INFINITY => Claim::Infeasible,
+            (None, _) => Claim::Bound(objective(instance, proof.bound)),
+        };
+    }
+    let iterations = vec![("proof".to_owned(), budget.iterations() - before)];
+    Found { order, solver: SolverName::Exact, iterations, claim }
+}
+
+/// The tour after some iterations of the baseline, or as it was if they make it no better.
+fn improved(
+    instance: &Instance<'_>,
+    order: &[u32],
+    iterations: u64,
+    rng: &mut Pcg64Mcg,
+    budget: &mut Budget<'_>,
+) -> Vec<u32> {
+    let outer = std::cell::RefCell::new(budget);
+    let stop = |done: u64| done >= iterations || done > 0 && !outer.borrow_mut().spend();
+    baseline::search(instance, order, rng, &mut Budget::new(&stop)).order
+}
+
+fn is_feasible(instance: &Instance<'_>, order: &[u32]) -> bool {
+    let tour = Tour::new(instance, order);
+    tour.is_legal() && Value::of(instance, &tour).is_feasible()
+}
+
+/// A bound on the cost as a bound on the objective.
+fn objective(instance: &Instance<'_>, cost: f64) -> f64 {
+    match instance.scenario.objective {
+        Objective::MinDistance => cost.max(0.0),
+        Objective::MaxReward => (-cost).min(instance.candidates.iter().map(|c| c.reward).sum()),
+        Objective::MaxCount => (1e-6 - cost).floor().min(instance.len() as f64),
+    }
+}
