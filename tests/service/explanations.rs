@@ -9,10 +9,10 @@ use serde_json::Value;
 use voltour::proto::{SubmitRequest, Tour};
 
 use crate::app::{PATIENCE, Settings, TestApp};
-use crate::calls::MOMENT;
+use crate::calls::{MOMENT, listed};
 use crate::database::{open, rows};
 use crate::field::{at_rest, covered, line, request, sensor};
-use crate::time::until;
+use crate::time::{from_now, until};
 
 /// No plan is explained.
 fn off() -> Settings {
@@ -82,6 +82,26 @@ async fn a_plan_is_explained_in_json_and_in_words() {
     let text = asked.text().await.unwrap();
     assert_eq!(text, liked.text().await.unwrap());
     assert!(text.contains("s1") && text.contains("s2") && text.contains("capacity"), "{text}");
+}
+
+#[tokio::test]
+async fn what_cannot_be_is_told_with_the_constraints_that_contradict_each_other() {
+    let app = TestApp::start().await;
+    let mut spec = line(2);
+    spec.sensors[0].place = at_rest(1000.0, 0.0);
+    app.put(spec).await;
+    // The charger needs 100 s.
+    let deadline = from_now(30_000);
+    app.submit(SubmitRequest { deadline, required: true, ..request("s1") }).await;
+    app.ask("s2").await;
+    let tour = app.drive("A").await;
+    let document = explanation(&app, &tour).await;
+    assert_eq!(document["status"], "infeasible");
+    let conflict = &document["conflict"];
+    let kinds = listed(conflict, "clauses", "kind");
+    assert_eq!(kinds, ["required", "deadline"]);
+    let text = app.get(&format!("{}?format=text", path(&tour))).await.text().await.unwrap();
+    assert!(text.contains(conflict["sentence"].as_str().unwrap()), "{text}");
 }
 
 #[tokio::test]
