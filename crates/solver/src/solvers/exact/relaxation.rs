@@ -329,7 +329,7 @@ impl<'n> Relaxation<'n> {
                 }
             }
         }
-        self.from_start(prizes).map_or(self.empty(), |(value, ..)| value.min(self.empty()))
+        self.best_start(prizes).map_or(self.empty(), |(value, ..)| value.min(self.empty()))
     }
 
     /// Values at a candidate from those ahead of it; whether one fell that the interval itself looks at.
@@ -386,7 +386,7 @@ impl<'n> Relaxation<'n> {
     }
 
     /// The best first arc: cost to the end, interval and candidate.
-    fn from_start(&self, prizes: &[f64]) -> Option<(f64, usize, u32)> {
+    fn best_start(&self, prizes: &[f64]) -> Option<(f64, usize, u32)> {
         let firsts = self.network.from(prizes.len()).zip(&self.starts).map(|(a, &b)| {
             let (arc, b) = (self.network.arcs[a], b as usize);
             let value = self.value[self.states(b, arc.to, self.tally.after(0, arc.to))];
@@ -400,7 +400,7 @@ impl<'n> Relaxation<'n> {
         let network = self.network;
         let (n, arcs) = (prizes.len(), network.arcs.len());
         let mut path = Vec::new();
-        let Some((value, mut b, mut at)) = self.from_start(prizes) else { return path };
+        let Some((value, mut b, mut at)) = self.best_start(prizes) else { return path };
         if value >= self.empty() || value == f64::INFINITY {
             return path;
         }
