@@ -11,11 +11,13 @@ use tokio_util::sync::CancellationToken;
 
 use crate::clock::Clock;
 use crate::config::Config;
+use crate::explainer::Explainer;
 use crate::grpc::{Edge, Server, ServerError};
 use crate::lifecycle::Lifecycle;
 use crate::listen::Counted;
-use crate::rest;
-use crate::scheduler::{self, Handle, Running};
+use crate::metrics::Metrics;
+use crate::rest::{self, RestState};
+use crate::scheduler::{self, Running};
 use crate::store::{Store, StoreError};
 
 /// Why the service did not start, or did not end well.
@@ -66,12 +68,13 @@ pub struct App {
     lifecycle: Lifecycle,
     stop_within: Duration,
     servers: [JoinHandle<Result<(), AppError>>; 2],
+    explainer: JoinHandle<()>,
     running: Running,
     scheduler: CancellationToken,
 }
 
 impl App {
-    /// Starts the store, the scheduler and the listeners, in this order. It answers when it returns.
+    /// Starts the store, the scheduler, the listeners and the explainer, in this order. It answers when it returns.
     ///
     /// # Errors
     /// One of them did not start; those before it have ended again.
@@ -86,7 +89,11 @@ impl App {
             opened.map_err(|source| AppError::Open { path: path.display().to_string(), source })?;
         let cancel = CancellationToken::new();
         let settings = config.settings();
-        let (handle, running) = scheduler::start(store, clock, settings, cancel.clone()).await?;
+        let metrics = Metrics::default();
+        let (reads, writer) = (store.reads.clone(), store.writer.clone());
+        let (handle, running) =
+            scheduler::start(store, clock.clone(), settings, metrics.clone(), cancel.clone())
+                .await?;
         let listening = async {
             let grpc = listen("grpc.listen", config.grpc.listen).await?;
             let rest = listen("rest.listen", config.rest.listen).await?;
@@ -103,16 +110,20 @@ impl App {
         let soft = lifecycle.soft.clone();
         let edge = Edge::new(handle.clone(), config.grpc_limits(), soft.clone());
         let rest = Counted::new(rest, config.limits.connections);
+        let state = RestState::new(handle.reads().clone(), metrics.clone(), soft.clone());
         let servers = [
             tokio::spawn(async move { Ok(Server::new(edge, grpc).run().await?) }),
-            tokio::spawn(serve_rest(rest, handle, soft)),
+            tokio::spawn(serve_rest(rest, state, soft)),
         ];
+        let soft = lifecycle.soft.clone();
+        let explainer = Explainer::new(reads, writer, clock, config.explainer(), metrics, soft);
         Ok(Self {
             grpc: grpc_at,
             rest: rest_at,
             lifecycle,
             stop_within: config.lifecycle.stop_within.0,
             servers,
+            explainer: tokio::spawn(explainer.run()),
             running,
             scheduler: cancel,
         })
@@ -123,7 +134,7 @@ impl App {
     /// # Errors
     /// A part failed, or not everything ended in time.
     pub async fn run(self) -> Result<(), AppError> {
-        let Self { lifecycle, stop_within, servers, running, scheduler, .. } = self;
+        let Self { lifecycle, stop_within, servers, explainer, running, scheduler, .. } = self;
         let aborts = servers.each_ref().map(JoinHandle::abort_handle);
         let ending = async {
             let [grpc, rest] = servers.map(|server| watched(server, &lifecycle.soft));
@@ -133,7 +144,10 @@ impl App {
                 lifecycle.soft.cancel();
             };
             let serving = async {
-                let (grpc, rest) = tokio::join!(grpc, rest);
+                let (grpc, rest, explained) = tokio::join!(grpc, rest, explainer);
+                if let Err(error) = explained {
+                    tracing::error!(%error, "a defect: the explainer died");
+                }
                 // Only now: a call that still runs may need it.
                 scheduler.cancel();
                 grpc.and(rest)
@@ -173,11 +187,10 @@ async fn listen(
 
 async fn serve_rest(
     listener: Counted,
-    handle: Handle,
+    state: RestState,
     stop: CancellationToken,
 ) -> Result<(), AppError> {
-    let router = rest::router(rest::RestState::new(handle.reads().clone(), stop.clone()));
-    axum::serve(listener, router)
+    axum::serve(listener, rest::router(state))
         .with_graceful_shutdown(stop.cancelled_owned())
         .await
         .map_err(AppError::Rest)

@@ -45,6 +45,7 @@ Configuration, as TOML (these are the defaults):
   [planning]
   solver = \"auto\"
   budget = \"2s\"                # time that the search for a tour may take
+  explanation_budget = \"2s\"    # time to say why a plan is as it is, after its tour is out; 0s for never
   # lead = \"3s\"                # a batch closes so long before its departure; budget + 1 s
   max_late = \"10m\"             # a departure that would be later is missed
   overdue_after = \"30m\"        # silence after the planned finish

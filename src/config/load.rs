@@ -10,6 +10,7 @@ use figment::providers::{Env, Format as _, Toml};
 use voltour_solver::solvers::SolverName;
 
 use super::{Config, Span};
+use crate::explainer;
 use crate::grpc;
 use crate::scheduler;
 
@@ -66,6 +67,12 @@ impl Config {
         }
     }
 
+    /// The explainer's settings.
+    pub fn explainer(&self) -> explainer::Settings {
+        let planning = &self.planning;
+        explainer::Settings { budget: planning.explanation_budget.0, seed: planning.seed }
+    }
+
     /// The gRPC edge's limits.
     pub fn grpc_limits(&self) -> grpc::Limits {
         let limits = &self.limits;
@@ -106,6 +113,8 @@ impl Config {
         let budget = planning.budget;
         let (least, most) = (Span(Duration::from_millis(10)), Span::seconds(600));
         errors.within("planning.budget", budget, least, most);
+        let (none, explained) = (Span(Duration::ZERO), planning.explanation_budget);
+        errors.within("planning.explanation_budget", explained, none, most);
         if let Some(lead) = planning.lead {
             let rule = format!("must be longer than planning.budget, {budget}");
             errors.check(lead > budget, "planning.lead", lead, &rule);
@@ -209,6 +218,7 @@ mod tests {
             ("[planning]\nbudget = \"soon\"", "planning.budget", "\"soon\" must be a length"),
             ("[planning]\nbudget = \"3s\"\nlead = \"3s\"", "planning.lead: 3s", "longer than"),
             ("[planning]\nsolver = \"magic\"", "planning.solver", "magic"),
+            ("[planning]\nexplanation_budget = \"1h\"", "explanation_budget: 1h", "from 0s to 10m"),
             ("[planning]\nthreads = 0", "planning.threads: 0", "from 1 to 64"),
             ("[limits]\nstreams = -1", "limits.streams", "-1"),
             ("[log]\nformat = \"xml\"", "log.format", "xml"),

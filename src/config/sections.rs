@@ -59,6 +59,8 @@ pub struct Planning {
     pub solver: String,
     /// Time that the search for a tour may take.
     pub budget: Span,
+    /// Time that the explanation of a plan may take, after its tour is out; 0 for none.
+    pub explanation_budget: Span,
     /// From the close of a batch to the departure; the budget and a second if none.
     pub lead: Option<Span>,
     /// A departure that would start later than this is missed.
@@ -144,6 +146,7 @@ impl Default for Planning {
         Self {
             solver: "auto".to_owned(),
             budget: Span::seconds(2),
+            explanation_budget: Span::seconds(2),
             lead: None,
             max_late: Span::seconds(600),
             overdue_after: Span::seconds(1_800),

@@ -133,6 +133,7 @@ fn adapted(mut config: Config) -> Config {
     let planning = &mut config.planning;
     planning.lead = Some(Span((planning.budget.0 + SLACK) * FACTOR));
     planning.budget = Span(planning.budget.0 * FACTOR);
+    planning.explanation_budget = Span(planning.explanation_budget.0 * FACTOR);
     planning.max_late = Span::seconds(6 * 3600);
     planning.overdue_after = Span::seconds(24 * 3600);
     config

@@ -13,6 +13,7 @@ use tonic::{Code, Request};
 use super::{Edge, Server, ServerError, violations};
 use crate::clock::SystemClock;
 use crate::config::Config;
+use crate::metrics::Metrics;
 use crate::proto::acknowledgement::Result as Outcome;
 use crate::proto::network_service_client::NetworkServiceClient;
 use crate::proto::request_service_client::RequestServiceClient;
@@ -40,7 +41,9 @@ impl Service {
         let config = Config::default();
         let settings = config.settings();
         let (handle, running) =
-            scheduler::start(store, clock, settings, scheduler.clone()).await.unwrap();
+            scheduler::start(store, clock, settings, Metrics::default(), scheduler.clone())
+                .await
+                .unwrap();
         let listener = TcpListener::bind("127.0.0.1:0").await.unwrap();
         let address = format!("http://{}", listener.local_addr().unwrap());
         let edge = Edge::new(handle, config.grpc_limits(), stop.clone());

@@ -11,18 +11,23 @@ use tokio_util::sync::CancellationToken;
 use voltour_solver::check::check;
 use voltour_solver::plan::Plan;
 use voltour_solver::scenario::{Scenario, ScenarioError};
-use voltour_solver::solvers::{Options, Outcome, SolverName, empty_plan, solve};
+use voltour_solver::solvers::{Options, Outcome, SolverName, Unavailable, empty_plan};
 use voltour_solver::stop::StopRule;
 
 use super::{record, scenario};
 use crate::clock::{Clock, plus, seconds};
 use crate::store::{Batch, NewPlan};
 
+/// How a contender solves: `voltour_solver::solvers::solve`, but in tests.
+pub type Solve = fn(&Scenario, &Options<'_>) -> Result<Outcome, Unavailable>;
+
 /// How a batch is planned.
 #[derive(Clone, Debug)]
 pub struct Contest {
     /// The solver asked for.
     pub solver: SolverName,
+    /// What runs it, and the next contenders.
+    pub solve: Solve,
     /// The seed of its search.
     pub seed: u64,
     /// How long its search takes at most; the next contenders get a part of it each.
@@ -174,7 +179,7 @@ impl Watch<'_> {
 
     fn solve(&self, scenario: &Scenario, solver: SolverName) -> Result<Outcome, String> {
         let options = Options { solver, seed: self.contest.seed, stop: self };
-        solve(scenario, &options).map_err(|unavailable| unavailable.to_string())
+        (self.contest.solve)(scenario, &options).map_err(|unavailable| unavailable.to_string())
     }
 }
 

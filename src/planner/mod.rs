@@ -2,9 +2,13 @@
 //! batch and a plan; waits for nothing and writes nothing.
 
 mod contest;
+#[cfg(test)]
+mod proof_tests;
 mod record;
 mod scenario;
+mod stored;
 #[cfg(test)]
 mod tests;
 
-pub use contest::{Contest, PlanError, plan};
+pub use contest::{Contest, PlanError, Solve, plan};
+pub use stored::{Unreadable, stored};

@@ -8,7 +8,7 @@ use tokio_util::sync::CancellationToken;
 use voltour_solver::check::check;
 use voltour_solver::plan::Plan;
 use voltour_solver::scenario::Scenario;
-use voltour_solver::solvers::SolverName;
+use voltour_solver::solvers::{SolverName, solve};
 
 use super::scenario::scenario;
 use super::{Contest, plan};
@@ -33,13 +33,13 @@ impl Clock for Ticking {
     }
 }
 
-fn contest(bench: &Bench, solver: SolverName) -> Contest {
+pub(super) fn contest(bench: &Bench, solver: SolverName) -> Contest {
     let clock = Arc::new(Ticking(Mutex::new(bench.clock.now())));
     let (budget, latest) = (Duration::from_secs(1), bench.later(2));
-    Contest { solver, seed: 7, budget, latest, clock, cancel: CancellationToken::new() }
+    Contest { solver, solve, seed: 7, budget, latest, clock, cancel: CancellationToken::new() }
 }
 
-fn unpacked(packed: &[u8]) -> serde_json::Value {
+pub(super) fn unpacked(packed: &[u8]) -> serde_json::Value {
     serde_json::from_slice(&zstd::decode_all(packed).unwrap()).unwrap()
 }
 
@@ -53,7 +53,7 @@ fn planned(bench: &Bench, batch: &Batch, solver: SolverName) -> NewPlan {
     new
 }
 
-async fn closed(bench: &Bench) -> Batch {
+pub(super) async fn closed(bench: &Bench) -> Batch {
     bench.closed(bench.announce("c").await).await
 }
 

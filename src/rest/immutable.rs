@@ -2,7 +2,7 @@
 
 use axum::body::Body;
 use axum::http::header::{
-    CACHE_CONTROL, CONTENT_SECURITY_POLICY, CONTENT_TYPE, ETAG, IF_NONE_MATCH,
+    CACHE_CONTROL, CONTENT_SECURITY_POLICY, CONTENT_TYPE, ETAG, IF_NONE_MATCH, VARY,
 };
 use axum::http::{HeaderMap, HeaderName, HeaderValue, StatusCode};
 use axum::response::Response;
@@ -10,28 +10,35 @@ use axum::response::Response;
 /// A picture holds styles and nothing else that a browser would run or load.
 const PICTURE_POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; sandbox";
 
+const VERSION: &str = env!("CARGO_PKG_VERSION");
+
 /// A form of a plan.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Form {
     Plan,
     Scenario,
     Svg,
+    Explanation,
+    ExplanationText,
 }
 
 impl Form {
     fn media_type(self) -> &'static str {
         match self {
-            Self::Plan | Self::Scenario => "application/json",
+            Self::Plan | Self::Scenario | Self::Explanation => "application/json",
+            Self::ExplanationText => "text/plain; charset=utf-8",
             Self::Svg => "image/svg+xml",
         }
     }
 
-    /// The strong tag. What is stored never changes; how it is drawn may, with the version.
+    /// The strong tag. What is stored never changes; how it is drawn or told may, with the version.
     pub fn tag(self, id: &str) -> String {
         match self {
             Self::Plan => format!("\"{id}\""),
             Self::Scenario => format!("\"{id}-scenario\""),
-            Self::Svg => format!("\"{id}-svg-{}\"", env!("CARGO_PKG_VERSION")),
+            Self::Svg => format!("\"{id}-svg-{VERSION}\""),
+            Self::Explanation => format!("\"{id}-explanation\""),
+            Self::ExplanationText => format!("\"{id}-explanation-text-{VERSION}\""),
         }
     }
 }
@@ -65,8 +72,11 @@ fn set(response: &mut Response, form: Form, tag: &str) {
         headers.insert(name, HeaderValue::from_static(value));
     };
     set(CACHE_CONTROL, "private, max-age=31536000, immutable");
-    if form == Form::Svg {
-        set(CONTENT_SECURITY_POLICY, PICTURE_POLICY);
+    match form {
+        Form::Svg => set(CONTENT_SECURITY_POLICY, PICTURE_POLICY),
+        // One address for both.
+        Form::Explanation | Form::ExplanationText => set(VARY, "accept"),
+        Form::Plan | Form::Scenario => {}
     }
     // A tag is made of an id and a version: always a header value.
     if let Ok(tag) = HeaderValue::from_str(tag) {
@@ -76,6 +86,8 @@ fn set(response: &mut Response, form: Form, tag: &str) {
 
 #[cfg(test)]
 mod tests {
+    use std::collections::HashSet;
+
     use super::*;
 
     fn knows(list: &'static str) -> bool {
@@ -92,8 +104,10 @@ mod tests {
 
     #[test]
     fn every_form_has_a_tag_of_its_own() {
-        let tags = [Form::Plan, Form::Scenario, Form::Svg].map(|form| form.tag("id"));
-        assert!(tags[0] != tags[1] && tags[1] != tags[2] && tags[0] != tags[2]);
+        use Form::{Explanation, ExplanationText, Plan, Scenario, Svg};
+        let forms = [Plan, Scenario, Svg, Explanation, ExplanationText];
+        let tags = HashSet::from(forms.map(|form| form.tag("id")));
+        assert_eq!(tags.len(), forms.len());
     }
 
     #[test]

@@ -1,10 +1,13 @@
 //! The REST edge: what the service has stored, to be read. Nothing is changed here; every error is a
 //! problem document (RFC 9457), logged once if it is the service's own.
 
+mod accept;
 mod dress;
+mod explanations;
 mod health;
 mod immutable;
 mod lists;
+mod metrics;
 mod openapi;
 mod plans;
 mod problem;

@@ -11,7 +11,7 @@ use utoipa::OpenApi;
 use super::problem::Problem;
 use super::query::Params;
 use super::view::PlanStatus;
-use super::{health, lists, plans};
+use super::{explanations, health, lists, metrics, plans};
 
 #[derive(OpenApi)]
 #[openapi(
@@ -31,6 +31,8 @@ use super::{health, lists, plans};
         plans::plans,
         plans::plan,
         plans::scenario,
+        explanations::explanation,
+        metrics::metrics,
         health::healthz,
         health::readyz,
     ),
@@ -74,6 +76,7 @@ mod tests {
             paths,
             [
                 "/healthz",
+                "/metrics",
                 "/readyz",
                 "/v1/departures",
                 "/v1/departures/{id}",
@@ -81,6 +84,7 @@ mod tests {
                 "/v1/networks/{id}",
                 "/v1/plans",
                 "/v1/plans/{id}",
+                "/v1/plans/{id}/explanation",
                 "/v1/plans/{id}/scenario",
                 "/v1/requests",
                 "/v1/requests/{id}",

@@ -13,13 +13,13 @@ use crate::store::StoreError;
 /// The media type of problem documents.
 pub(super) const MEDIA_TYPE: &str = "application/problem+json";
 
-/// Why there is no answer, as RFC 9457 has it; the type is always `about:blank`.
+/// Why there is no answer, as RFC 9457 has it; the type is `about:blank` where the status says it all.
 #[derive(Clone, Debug, Serialize, ToSchema)]
 pub(super) struct Problem {
     #[serde(rename = "type")]
     #[schema(example = "about:blank")]
     kind: &'static str,
-    /// What the status is called
+    /// What the status is called, or the type
     title: &'static str,
     /// The HTTP status
     #[schema(example = 400)]
@@ -59,6 +59,12 @@ impl Problem {
     /// There is no such thing.
     pub fn not_found(what: &str, id: impl std::fmt::Display) -> Self {
         Self::new(StatusCode::NOT_FOUND).detail(format!("there is no {what} {id}"))
+    }
+
+    /// Something that may be there another time, or that was given up: of a type of its own, for a program
+    /// that asks has to tell it from a wrong id.
+    pub fn missing(kind: &'static str, title: &'static str) -> Self {
+        Self { kind, title, ..Self::new(StatusCode::NOT_FOUND) }
     }
 
     /// Parameters break rules.

@@ -4,7 +4,7 @@ use axum::Router;
 use axum::routing::get;
 
 use super::dress::dress;
-use super::{RestState, health, lists, openapi, plans};
+use super::{RestState, explanations, health, lists, metrics, openapi, plans};
 
 /// Every route of the REST edge, with its layers.
 pub fn router(state: RestState) -> Router {
@@ -19,7 +19,9 @@ pub fn router(state: RestState) -> Router {
         // One segment holds no parameter with a suffix: the handler splits `{id}` and `{id}.svg`.
         .route("/v1/plans/{id}", get(plans::plan))
         .route("/v1/plans/{id}/scenario", get(plans::scenario))
+        .route("/v1/plans/{id}/explanation", get(explanations::explanation))
         .route("/openapi.json", get(openapi::document))
+        .route("/metrics", get(metrics::metrics))
         .route("/healthz", get(health::healthz))
         .route("/readyz", get(health::readyz))
         .with_state(state);

@@ -14,6 +14,7 @@ use voltour_solver::solvers::plan_from_order;
 
 use super::{RestState, router};
 use crate::clock::plus;
+use crate::metrics::Metrics;
 use crate::store::fixture::Bench;
 use crate::store::{NewPlan, StorePlan, pack};
 
@@ -47,7 +48,7 @@ impl Edge {
     async fn new() -> Self {
         let bench = Bench::new().await;
         let shutdown = CancellationToken::new();
-        let state = RestState::new(bench.store.reads.clone(), shutdown.clone());
+        let state = RestState::new(bench.store.reads.clone(), Metrics::default(), shutdown.clone());
         Self { bench, state, shutdown }
     }
 
@@ -181,7 +182,7 @@ async fn a_plan_is_shown_in_every_form_and_never_changes() {
 async fn what_is_not_there_is_a_problem() {
     let edge = Edge::new().await;
     let stranger = "01890a5d-ac96-774b-bcce-b302099a8057";
-    for end in ["", ".svg", "/scenario"] {
+    for end in ["", ".svg", "/scenario", "/explanation"] {
         edge.refused(&format!("/v1/plans/{stranger}{end}"), 404, &[]).await;
         edge.refused(&format!("/v1/plans/nothing{end}"), 400, &["id"]).await;
     }

@@ -6,10 +6,12 @@ use std::time::Duration;
 
 use tokio::sync::Semaphore;
 use tokio_util::sync::CancellationToken;
+use voltour_solver::solvers::solve;
 
 use super::Settings;
 use crate::clock::{Clock, minus, seconds};
 use crate::domain::{Call, CancelDeparture, ClientId, DepartureId, Refusal};
+use crate::metrics::Metrics;
 use crate::planner::{self, Contest, PlanError};
 use crate::store::{Batch, Cancel, CloseBatch, Closing, StorePlan, Storing, Writer};
 
@@ -22,6 +24,7 @@ pub(super) struct Departing {
     pub writer: Writer,
     pub clock: Arc<dyn Clock>,
     pub settings: Settings,
+    pub metrics: Metrics,
     /// As many batches are planned at once.
     pub planners: Arc<Semaphore>,
     pub cancel: CancellationToken,
@@ -51,9 +54,12 @@ impl Departing {
                 Err(Stuck::Plan(error)) => return self.give_up(id, &error).await,
                 plan => plan?,
             };
-            let (status, gap, solver) = (plan.status.name(), plan.gap(), plan.solver.clone());
+            let took_s = seconds(closed, self.clock.now()).max(0.0);
+            let (status, gap, solver) = (plan.status, plan.gap(), plan.solver.clone());
             match self.writer.call(StorePlan { departure_id: id, start, plan }).await? {
                 Storing::Stored(tour) => {
+                    self.metrics.planned(&solver, status, gap, took_s);
+                    let status = status.name();
                     tracing::info!(departure = %id, %tour, %start, status, solver, gap, "planned");
                     return Ok(());
                 }
@@ -100,6 +106,7 @@ impl Departing {
         let spare = lead.saturating_sub(budget);
         let contest = Contest {
             solver: self.settings.solver,
+            solve,
             seed: self.settings.seed,
             budget,
             latest: minus(batch.start, TO_STORE.min(spare / 2)),

@@ -11,6 +11,7 @@ use super::agenda::Agenda;
 use super::departing::Departing;
 use super::{Handle, Settings};
 use crate::clock::Clock;
+use crate::metrics::Metrics;
 use crate::store::{Store, StoreError};
 
 /// The running scheduler and its writer.
@@ -40,6 +41,7 @@ pub async fn start(
     store: Store,
     clock: Arc<dyn Clock>,
     settings: Settings,
+    metrics: Metrics,
     cancel: CancellationToken,
 ) -> Result<(Handle, Running), StoreError> {
     let waiting = store.reads.waiting().await?.len();
@@ -48,7 +50,8 @@ pub async fn start(
     let Store { reads, writer, task: mut writing } = store;
     let handle = Handle::new(writer.clone(), reads.clone(), settings.lead, wake.clone());
     let planners = Arc::new(Semaphore::new(settings.planner_threads.clamp(1, 256)));
-    let departing = Departing { writer, clock, settings, planners, cancel: cancel.clone() };
+    let departing =
+        Departing { writer, clock, settings, metrics, planners, cancel: cancel.clone() };
     let (busy, under_way, tasks) = (HashMap::new(), JoinSet::new(), HashMap::new());
     let agenda = Agenda { reads, departing, wake, busy, under_way, tasks };
     let task = tokio::spawn(async move {

@@ -4,6 +4,7 @@
 mod cells;
 mod commands;
 mod error;
+mod explanations;
 #[cfg(test)]
 pub(crate) mod fixture;
 mod lock;
@@ -17,10 +18,12 @@ mod writer;
 
 pub(crate) use cells::pack;
 pub use commands::{
-    Announce, Batch, Cancel, CloseBatch, Closing, Complete, NewPlan, NewStop, Overdue, Put,
-    ReportVisit, StorePlan, Storing, Submit, TakeBack, UpdatePaths,
+    Announce, Attempt, Batch, BeginExplanation, Cancel, CloseBatch, Closing, Complete,
+    EndExplanation, NewPlan, NewStop, Overdue, Put, ReportVisit, StorePlan, Storing, Submit,
+    TakeBack, UpdatePaths,
 };
 pub use error::StoreError;
+pub use explanations::Explained;
 pub use open::Store;
 pub use page::{DepartureFilter, Listed, Page, PlanFilter, RequestFilter};
 pub use read::{PlanSummary, Reads, Waiting};

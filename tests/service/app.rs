@@ -28,6 +28,7 @@ pub struct Settings {
     pub lead: &'static str,
     pub max_late: &'static str,
     pub overdue_after: &'static str,
+    pub explanation_budget: &'static str,
     /// Further sections.
     pub more: &'static str,
 }
@@ -40,6 +41,7 @@ impl Default for Settings {
             lead: "400ms",
             max_late: "10m",
             overdue_after: "30m",
+            explanation_budget: "2s",
             more: "",
         }
     }
@@ -47,12 +49,13 @@ impl Default for Settings {
 
 impl Settings {
     fn toml(&self, store: &Path) -> String {
-        let Self { solver, budget, lead, max_late, overdue_after, more } = self;
+        let Self { solver, budget, lead, max_late, overdue_after, explanation_budget, more } = self;
         format!(
             "[grpc]\nlisten = \"127.0.0.1:0\"\n\n[rest]\nlisten = \"127.0.0.1:0\"\n\n\
              [store]\npath = {store:?}\n\n\
              [planning]\nsolver = {solver:?}\nbudget = {budget:?}\nlead = {lead:?}\n\
-             max_late = {max_late:?}\noverdue_after = {overdue_after:?}\nseed = 7\n\n{more}"
+             max_late = {max_late:?}\noverdue_after = {overdue_after:?}\n\
+             explanation_budget = {explanation_budget:?}\nseed = 7\n\n{more}"
         )
     }
 }
@@ -77,12 +80,17 @@ impl TestApp {
     /// A server over an empty database.
     pub async fn with(settings: Settings) -> Self {
         let dir = tempfile::tempdir().expect("a temporary directory");
-        let config = settings.toml(&dir.path().join("voltour.db"));
-        fs::write(dir.path().join("voltour.toml"), config).expect("the configuration is written");
         let channel = Endpoint::from_static("http://127.0.0.1:1").connect_lazy();
         let mut app = Self { dir, child: None, channel, grpc: String::new(), rest: String::new() };
+        app.configure(settings);
         app.launch().await;
         app
+    }
+
+    /// Writes the configuration, for the next launch.
+    pub fn configure(&self, settings: Settings) {
+        let config = settings.toml(&self.database());
+        fs::write(self.config_path(), config).expect("the configuration is written");
     }
 
     /// Starts the process, again if it ran before, and waits until it says that it is ready.

@@ -53,6 +53,7 @@ async fn the_openapi_document_names_every_route() {
         "/v1/plans",
         "/v1/plans/{id}",
         "/v1/plans/{id}/scenario",
+        "/v1/plans/{id}/explanation",
     ] {
         assert!(paths.contains_key(path), "{path} is not in {:?}", paths.keys());
     }
