@@ -106,7 +106,9 @@ pub fn solve_compiled(
         SolverName::Random => {
             vec![single(random::random(instance, &mut rng, &mut budget), "walks", &budget)]
         }
-        SolverName::Exact => vec![exact::solve(instance, &[], &mut rng, &mut budget)],
+        SolverName::Exact => {
+            vec![exact::solve(instance, &[], exact::Effort::Whole, &mut rng, &mut budget)]
+        }
         SolverName::Dqn
         | SolverName::Acs
         | SolverName::Dp
@@ -143,6 +145,13 @@ fn outcome(instance: &Instance<'_>, all: &[Found]) -> Outcome {
         iterations: all.iter().flat_map(|found| found.iterations.clone()).collect(),
         contenders: all.iter().map(contender).collect(),
     }
+}
+
+/// Whether a solver has proven its tour to be the best.
+pub(super) fn is_optimal(instance: &Instance<'_>, found: &Found) -> bool {
+    let mut plan = plan_of(instance, &found.order, found.solver.name());
+    claimed(instance, &mut plan, found.claim);
+    plan.status == Status::Optimal
 }
 
 /// Adds to a plan what is proven.

@@ -22,6 +22,7 @@ mod verdict;
 
 use incumbent::Incumbent;
 use model::{Aim, Model};
+pub(super) use prove::Effort;
 use prove::prove;
 pub(super) use solve::solve;
 pub use verdict::{Verdict, decide};

@@ -23,8 +23,19 @@ pub struct Proof {
     pub closed: bool,
 }
 
-/// Rounds at most; by then the labels of a search have long reached their limit.
+/// How much work a proof may be: rounds, by the size of what they work on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Effort {
+    /// As long as the budget lasts; after this many rounds searches have long reached their limits.
+    Whole,
+    /// What a second or two are worth, so that the rest of a planner's time is left to others.
+    Share,
+}
+
+/// Rounds of a whole proof at most.
 const ROUNDS: u32 = 20;
+/// Rounds of a share, and up to how many arcs over all layers they are worth beginning.
+const SHARES: [(u32, usize); 3] = [(4, 200_000), (2, 1_000_000), (1, 3_000_000)];
 /// Steps of the ascent in the first round and in later ones.
 const FIRST_STEPS: u32 = 30;
 const STEPS: u32 = 15;
@@ -51,22 +62,33 @@ const MOST_ARRIVALS: usize = 60_000_000;
 /// Proves on, from what is known, until closed or the budget is spent.
 pub fn prove(
     model: &Model<'_>,
+    effort: Effort,
     incumbent: &mut Incumbent,
     rng: &mut Pcg64Mcg,
     budget: &mut Budget<'_>,
 ) -> Proof {
     let words = model.len().max(model.demands.len()).div_ceil(64);
     if words > 8 || model.len() * model.len() * INTERVALS > MOST_ARRIVALS {
-        return Proof { order: incumbent.order.clone(), bound: f64::NEG_INFINITY, closed: false };
+        return nothing(incumbent);
     }
     let network = Network::new(model);
+    let arrivals = network.arcs.len() * INTERVALS;
+    let share = SHARES.iter().find(|(_, most)| arrivals <= *most).map_or(0, |share| share.0);
+    let rounds = if effort == Effort::Whole { ROUNDS } else { share };
+    if rounds == 0 {
+        return nothing(incumbent);
+    }
     let prover = Prover::new(model, &network, incumbent, rng, budget);
     match words {
-        0..=1 => prover.prove::<1>(),
-        2 => prover.prove::<2>(),
-        3..=4 => prover.prove::<4>(),
-        _ => prover.prove::<8>(),
+        0..=1 => prover.prove::<1>(rounds),
+        2 => prover.prove::<2>(rounds),
+        3..=4 => prover.prove::<4>(rounds),
+        _ => prover.prove::<8>(rounds),
     }
+}
+
+fn nothing(incumbent: &Incumbent) -> Proof {
+    Proof { order: incumbent.order.clone(), bound: f64::NEG_INFINITY, closed: false }
 }
 
 struct Prover<'p, 'a, 'b> {
@@ -93,17 +115,17 @@ impl<'p, 'a, 'b> Prover<'p, 'a, 'b> {
         Self { model, paths, incumbent, rng, budget }
     }
 
-    fn prove<const W: usize>(mut self) -> Proof {
+    fn prove<const W: usize>(mut self, rounds: u32) -> Proof {
         let mut bound = f64::NEG_INFINITY;
         let mut ascent = self.begin();
         let most_labels = MOST_LABEL_BYTES / Search::<W>::LABEL_BYTES;
         let mut labels = FIRST_LABELS;
-        for round in 0..ROUNDS {
+        for round in 0..rounds {
             match self.round::<W>(&mut ascent, round, labels) {
                 End::Closed => return self.closed(),
                 End::Open(least) => bound = bound.max(least),
             }
-            if self.budget.is_spent() {
+            if self.budget.is_spent() || round + 1 == rounds {
                 break;
             }
             labels = (3 * labels).min(most_labels);

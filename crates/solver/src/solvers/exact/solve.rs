@@ -2,7 +2,7 @@
 
 use rand_pcg::Pcg64Mcg;
 
-use super::{Aim, Incumbent, Model, prove};
+use super::{Aim, Effort, Incumbent, Model, prove};
 use crate::instance::Instance;
 use crate::scenario::Objective;
 use crate::solvers::entry::{Claim, Found};
@@ -21,6 +21,7 @@ const POLISH: u64 = 400;
 pub fn solve(
     instance: &Instance<'_>,
     start: &[u32],
+    effort: Effort,
     rng: &mut Pcg64Mcg,
     budget: &mut Budget<'_>,
 ) -> Found {
@@ -33,7 +34,7 @@ pub fn solve(
     if !is_feasible(instance, &order) {
         let model = Model::new(instance, Aim::AnyTour);
         let mut any = Incumbent::none(&model);
-        let proof = prove(&model, &mut any, rng, budget);
+        let proof = prove(&model, effort, &mut any, rng, budget);
         match proof.order {
             Some(feasible) => order = feasible,
             None if proof.closed && any.beyond == f64::INFINITY => claim = Claim::Infeasible,
@@ -44,7 +45,7 @@ pub fn solve(
         let model = Model::new(instance, Aim::Optimum);
         let mut incumbent = Incumbent::none(&model);
         incumbent.offer_order(&model, order.clone());
-        let proof = prove(&model, &mut incumbent, rng, budget);
+        let proof = prove(&model, effort, &mut incumbent, rng, budget);
         claim = match (proof.order, proof.closed) {
             (Some(best), _) => {
                 order = best;
