@@ -12,8 +12,10 @@ use super::{Model, Places};
 const NEAR: usize = 8;
 /// Beyond so many candidates travelling is taken to cost nothing.
 const MOST: usize = 3_000;
-/// Prices tried.
-const PRICES: usize = 13;
+/// Candidates for which prices are tried, counted once a price, and prices tried at least and at most.
+const WORK: usize = 18_000;
+const LEAST_PRICES: usize = 6;
+const MOST_PRICES: usize = 16;
 /// How often the ways that moats have burst are watched too.
 const REPAIRS: usize = 6;
 
@@ -108,12 +110,13 @@ impl Market<'_> {
         let known = if incumbent_gain > 0.0 { incumbent_gain } else { 0.5 * all };
         // Gain by unit of what is scarce falls with every stop: the last is worth less than the average.
         let middle = (known / limit).ln();
-        let (mut low, mut high) = (middle - 3.5, middle + 1.0);
+        let (mut low, mut high) = (middle - 2.5, middle + 0.8);
         let golden = 0.5 * (5.0_f64.sqrt() - 1.0);
+        let prices = (WORK / self.gains.len().max(1)).clamp(LEAST_PRICES, MOST_PRICES);
         let mut value = |log: f64| self.gain(scarce, log.exp(), false);
         let (mut a, mut b) = (high - golden * (high - low), low + golden * (high - low));
         let (mut at_a, mut at_b) = (value(a), value(b));
-        for _ in 2..PRICES {
+        for _ in 2..prices {
             if at_a <= at_b {
                 (high, b, at_b) = (b, a, at_a);
                 a = high - golden * (high - low);

@@ -1,6 +1,6 @@
 //! A bound in a fraction of a second where a proof is out of reach: hundreds and thousands of requests.
 
-use super::clusters::clusters;
+use super::clusters::{First, clusters};
 use super::pricing::most_gain;
 use super::spanning::spanning;
 use super::{Aim, Model, Places};
@@ -13,9 +13,16 @@ use crate::scenario::Objective;
 pub fn quick(model: &Model<'_>, incumbent_cost: f64) -> f64 {
     let instance = &model.wide;
     let places = Places::new(model);
-    let Some(sets) = clusters(model, &places) else { return f64::INFINITY };
+    let Some(sets) = clusters(model, &places, First::Few) else { return f64::INFINITY };
     if model.length_counts {
-        return spanning(&places, &sets, instance.start(), instance.end(), incumbent_cost);
+        let tree = |sets: &[Vec<u32>]| {
+            spanning(&places, sets, instance.start(), instance.end(), incumbent_cost)
+        };
+        let bound = tree(&sets);
+        if sets.iter().all(|set| set.len() == 1) && sets.len() == model.demands.len() {
+            return bound;
+        }
+        return clusters(model, &places, First::Close).map_or(bound, |sets| tree(&sets).max(bound));
     }
     let most = most_gain(model, &places, -incumbent_cost);
     let counts = instance.scenario.objective == Objective::MaxCount;

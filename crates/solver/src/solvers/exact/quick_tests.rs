@@ -2,6 +2,7 @@
 
 use super::quick::quick;
 use super::{Aim, Model};
+use crate::generate::{KCoverage, Mobile, Reward, k_coverage, mobile, reward};
 use crate::instance::Instance;
 use crate::scenario::{Objective, Scenario};
 use crate::solvers::{Options, SolverName, solve};
@@ -48,4 +49,23 @@ fn no_tour_is_better() {
     }
     println!("{proven} proven, {near} bounds within 10 %");
     assert!(2 * proven > trials);
+}
+
+#[test]
+fn no_tour_of_a_preset_is_better() {
+    let covered = KCoverage { sensors: 48, k: 2, alpha: 0.3, ..KCoverage::default() };
+    let prized = Reward { sensors: 14, alpha: 1.0, ..Reward::default() };
+    let moving = Mobile { sensors: 10, timespan_s: 600.0, ..Mobile::default() };
+    let mut proven = 0;
+    for seed in 0..12 {
+        let drawn = [k_coverage(&covered, seed), reward(&prized, seed), mobile(&moving, seed)];
+        for document in drawn {
+            let scenario = Scenario::from_document(&document.unwrap()).unwrap();
+            let Some((bound, best)) = both(&scenario) else { continue };
+            assert!(bound <= best + tolerance(best), "{:?}: {bound} {best}", scenario.name);
+            println!("{:?}: {bound} {best}", scenario.name);
+            proven += 1;
+        }
+    }
+    assert!(proven >= 30, "{proven}");
 }
