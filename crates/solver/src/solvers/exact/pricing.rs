@@ -13,11 +13,11 @@ const NEAR: usize = 8;
 /// Beyond so many candidates travelling is taken to cost nothing.
 const MOST: usize = 3_000;
 /// Candidates for which prices are tried, counted once a price, and prices tried at least and at most.
-const WORK: usize = 18_000;
+const WORK: usize = 16_000;
 const LEAST_PRICES: usize = 6;
 const MOST_PRICES: usize = 16;
 /// How often the ways that moats have burst are watched too.
-const REPAIRS: usize = 6;
+const REPAIRS: usize = 3;
 
 /// What the tour has only so much of.
 struct Scarce {
