@@ -90,8 +90,8 @@ pub fn grow(watched: &Watched, prizes: &[f64], way: Option<&dyn Fn(u32, u32) -> 
         value: 0.0,
     };
     let mut moats = Moats { value: 0.0, burst: Vec::new(), share: 1.0 };
-    for i in 0..n {
-        if prizes[i] > 0.0 {
+    for (i, &prize) in prizes.iter().enumerate() {
+        if prize > 0.0 {
             growth.wake(i);
         }
     }

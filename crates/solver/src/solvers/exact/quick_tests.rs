@@ -9,6 +9,8 @@ use crate::solvers::{Options, SolverName, solve};
 use crate::stop::MaxIterations;
 use crate::tolerance::tolerance;
 
+// Shared with the tests of the baseline.
+#[allow(clippy::duplicate_mod)]
 #[path = "../../../tests/mixed/mod.rs"]
 mod mixed;
 
