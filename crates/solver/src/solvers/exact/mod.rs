@@ -7,22 +7,32 @@
 //! best-first search over labels, with dominance, either ends, which is the proof, or gives a bound.
 
 mod bits;
+mod clusters;
 mod fixing;
 mod incumbent;
 mod memory;
+mod moats;
 mod model;
 mod multipliers;
 mod network;
+mod places;
+mod pricing;
 mod prove;
+mod quick;
+#[cfg(test)]
+mod quick_tests;
 mod relaxation;
 mod search;
 mod solve;
+mod spanning;
 mod tally;
 mod verdict;
 
 use incumbent::Incumbent;
 use model::{Aim, Model};
+use places::Places;
 pub(super) use prove::Effort;
 use prove::prove;
+pub use quick::quick_bound;
 pub(super) use solve::solve;
 pub use verdict::{Verdict, decide};
