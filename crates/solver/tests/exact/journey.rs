@@ -72,6 +72,13 @@ impl Journey {
         order.iter().fold(begin, |at, &request| at.visit(scenario, request)).home(scenario)
     }
 
+    /// Whether time span and energy are not yet used up, before the way home.
+    pub fn is_affordable(&self, scenario: &Scenario, most: f64) -> bool {
+        let charger = &scenario.charger;
+        strain(self.time_s, charger.timespan_s) <= most
+            && strain(self.energy_j(scenario), charger.capacity_j) <= most
+    }
+
     /// Energy delivered and travelled, in joules.
     pub fn energy_j(&self, scenario: &Scenario) -> f64 {
         self.charged_j + scenario.charger.travel_jpm * self.length_m
