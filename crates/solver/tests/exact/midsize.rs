@@ -1,5 +1,7 @@
 //! Scenarios of a size that no enumeration manages, against a plain dynamic programme.
 
+use std::ops::RangeInclusive;
+
 use voltour_solver::generate::{KCoverage, Mobile, Reward, k_coverage, mobile, reward};
 use voltour_solver::plan::Status;
 use voltour_solver::scenario::{Document, Objective, Scenario};
@@ -23,7 +25,11 @@ fn compare(document: &Document) -> bool {
     let needs = needs(&scenario);
     let plan = exact(&scenario, 0, AMPLE);
     assert_eq!(check(&scenario, &plan), [], "{name:?}");
-    let least = best(&scenario, &needs, STRAINS[1]);
+    // What is longer than the plan is of no interest where no detour is a short cut.
+    let straight = scenario.objective == Objective::MinDistance && scenario.travel.is_none();
+    let known = straight && plan.status.is_feasible();
+    let most_m = if known { plan.objective + 1e-6 } else { f64::INFINITY };
+    let least = best(&scenario, &needs, STRAINS[1], most_m);
     let claim = plan.bound.map(|bound| cost_of(&scenario, bound) - 1.001 * tolerance(bound));
     match (plan.status, least) {
         (Status::Infeasible, least) => assert!(least.is_none(), "{name:?}: {least:?}"),
@@ -50,20 +56,26 @@ fn compare_all(documents: impl IntoIterator<Item = Document>) {
     assert!(!decided.is_empty() && 10 * open <= decided.len(), "{open} open");
 }
 
-#[test]
-fn coverage_of_fourteen_to_twenty_candidates() {
-    let options = |seed| KCoverage {
-        sensors: 32 + 4 * (seed % 2) as u32,
-        k: 2,
-        alpha: 0.5,
-        ..KCoverage::default()
-    };
-    let sized = |document: &Document| {
+/// The first scenarios of k-coverage with so many candidates, in which somebody must be charged.
+fn coverage(sizes: RangeInclusive<usize>, count: u64) -> impl Iterator<Item = Document> {
+    let options = KCoverage { sensors: 32, k: 2, alpha: 0.5, ..KCoverage::default() };
+    let sized = move |document: &Document| {
         let scenario = Scenario::from_document(document).unwrap();
-        (14..=20).contains(&candidates(&scenario).len()) && !needs(&scenario).is_empty()
+        sizes.contains(&candidates(&scenario).len()) && !needs(&scenario).is_empty()
     };
-    let drawn = (0..).map(|seed| k_coverage(&options(seed), seed).unwrap()).filter(sized);
-    compare_all(drawn.take(trials(30) as usize));
+    let drawn = (0..).map(move |seed| k_coverage(&options, seed).unwrap());
+    drawn.filter(sized).take(count as usize)
+}
+
+#[test]
+fn coverage_of_ten_to_fourteen_candidates() {
+    compare_all(coverage(10..=14, trials(12)));
+}
+
+#[test]
+#[ignore = "takes minutes: the programme has a million sets"]
+fn coverage_of_fourteen_to_twenty_candidates() {
+    compare_all(coverage(14..=20, trials(30)));
 }
 
 #[test]

@@ -13,8 +13,9 @@ use crate::truth::{Need, candidates, cost};
 type Labels = Vec<Journey>;
 
 /// The least cost of a feasible tour whose limits are strained up to `most`; `None` if there is none.
+/// Tours longer than `most_m` are left out; only among straight ways may that be less than infinite.
 /// Where sensors move, time alone must decide what is better: no capacity, and `max_count` or `max_reward`.
-pub fn best(scenario: &Scenario, needs: &[Need], most: f64) -> Option<f64> {
+pub fn best(scenario: &Scenario, needs: &[Need], most: f64, most_m: f64) -> Option<f64> {
     let moving = scenario.sensors.iter().any(|s| matches!(s.place, Place::Moving(_)));
     let candidates = candidates(scenario);
     let mut least: Option<f64> = None;
@@ -36,7 +37,8 @@ pub fn best(scenario: &Scenario, needs: &[Need], most: f64) -> Option<f64> {
             for &to in candidates.iter().filter(|&&to| served >> to & 1 == 0) {
                 for at in labels {
                     let ahead = at.visit(scenario, to);
-                    if ahead.strain <= most && ahead.is_affordable(scenario, most) {
+                    let open = ahead.strain <= most && ahead.is_affordable(scenario, most);
+                    if open && ahead.home(scenario).length_m <= most_m {
                         let set = served | 1 << to;
                         keep(scenario, moving, next.entry((set, to)).or_default(), ahead);
                     }
