@@ -9,6 +9,7 @@ mod mixed;
 mod agreement;
 mod anytime;
 mod deciding;
+mod defects;
 mod draw;
 mod edge;
 mod journey;
