@@ -161,10 +161,9 @@ fn matrix(rng: &mut Pcg64Mcg, ground: Ground, size: usize) -> Option<TravelDocum
     let mut distance_m: Vec<Vec<f64>> =
         (0..size).map(|_| (0..size).map(&mut entry).collect()).collect();
     if ground == SymmetricMatrix {
-        for row in 0..size {
-            for column in 0..row {
-                distance_m[row][column] = distance_m[column][row];
-            }
+        let upper = distance_m.clone();
+        for (a, row) in distance_m.iter_mut().enumerate() {
+            row.iter_mut().take(a).enumerate().for_each(|(b, leg_m)| *leg_m = upper[b][a]);
         }
     }
     let given = [RealMatrix, WholeMatrix, SymmetricMatrix, ZeroMatrix].contains(&ground);

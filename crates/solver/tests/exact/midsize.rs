@@ -43,7 +43,7 @@ fn compare(document: &Document) -> bool {
     match decide(&Instance::new(&scenario), &mut Budget::new(&MaxIterations(AMPLE))) {
         Verdict::Feasible(_) => assert!(least.is_some(), "{name:?}"),
         Verdict::Infeasible => assert!(least.is_none(), "{name:?}: {least:?}"),
-        Verdict::Unknown => println!("{name:?}: unknown"),
+        Verdict::Unknown => {}
     }
     matches!(plan.status, Status::Optimal | Status::Infeasible)
 }
