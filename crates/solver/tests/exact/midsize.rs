@@ -52,7 +52,6 @@ fn compare(document: &Document) -> bool {
 fn compare_all(documents: impl IntoIterator<Item = Document>) {
     let decided: Vec<bool> = documents.into_iter().map(|document| compare(&document)).collect();
     let open = decided.iter().filter(|decided| !**decided).count();
-    println!("{} compared, {open} open", decided.len());
     assert!(!decided.is_empty() && 10 * open <= decided.len(), "{open} open");
 }
 
