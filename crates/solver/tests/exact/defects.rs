@@ -25,7 +25,6 @@ const WITHIN_AN_INTERVAL: &str = r#"{
 }"#;
 
 #[test]
-#[ignore = "paths within an interval are not followed to their end (relaxation.rs, pull)"]
 fn paths_within_an_interval_are_followed() {
     let scenario = Scenario::from_json(WITHIN_AN_INTERVAL.as_bytes()).unwrap();
     let verdict = decide(&Instance::new(&scenario), &mut Budget::new(&MaxIterations(AMPLE)));
@@ -41,14 +40,12 @@ const EMPTY_TRIP: &str = r#"{
 }"#;
 
 #[test]
-#[ignore = "a best effort without a violation: solvers and violations draw the line elsewhere (plan_of.rs)"]
 fn an_empty_trip_within_the_tolerance_is_feasible() {
     let scenario = Scenario::from_json(EMPTY_TRIP.as_bytes()).unwrap();
     assert_eq!(check(&scenario, &exact(&scenario, 0, AMPLE)), []);
 }
 
 #[test]
-#[ignore = "a construction that is cut short may come to a better tour than a whole one (solve.rs, improved)"]
 fn two_iterations_are_no_worse_than_one() {
     let scenario = Scenario::from_document(&awkward(5, 2_000_203)).unwrap();
     let costs = [1, 2].map(|budget| cost_of(&scenario, exact(&scenario, 0, budget).objective));

@@ -7,6 +7,7 @@ use super::memory::{self, Memory};
 use super::model::{Aim, Model};
 use super::multipliers::{Ascent, Multipliers};
 use super::network::Network;
+use super::quick::quick;
 use super::relaxation::{Reading, Relaxation, Resource};
 use super::search::{End, Search};
 use super::tally::Tally;
@@ -54,6 +55,8 @@ const MOST_INTERVALS_OF_GAIN: usize = 800;
 const FIRST_MEMORY: usize = 2;
 /// Combinations of counts that the states of paths may take.
 const MOST_TALLY: usize = 128;
+/// Beyond this many candidates a bound without paths is taken first.
+const SMALL: usize = 128;
 /// Values that the bounds may take up.
 const MOST_VALUES: usize = 40_000_000;
 /// Arcs over all layers for which paths are laid out at all.
@@ -69,14 +72,14 @@ pub fn prove(
 ) -> Proof {
     let words = model.len().max(model.demands.len()).div_ceil(64);
     if words > 8 || model.len() * model.len() * INTERVALS > MOST_ARRIVALS {
-        return nothing(incumbent);
+        return quickly(model, incumbent);
     }
     let network = Network::new(model);
     let arrivals = network.arcs.len() * INTERVALS;
     let share = SHARES.iter().find(|(_, most)| arrivals <= *most).map_or(0, |share| share.0);
     let rounds = if effort == Effort::Whole { ROUNDS } else { share };
     if rounds == 0 {
-        return nothing(incumbent);
+        return quickly(model, incumbent);
     }
     let prover = Prover::new(model, &network, incumbent, rng, budget);
     match words {
@@ -87,8 +90,12 @@ pub fn prove(
     }
 }
 
-fn nothing(incumbent: &Incumbent) -> Proof {
-    Proof { order: incumbent.order.clone(), bound: f64::NEG_INFINITY, closed: false }
+/// What is known without relaxed paths.
+fn quickly(model: &Model<'_>, incumbent: &Incumbent) -> Proof {
+    let bound = quick(model, incumbent.cost);
+    let closed = bound == f64::INFINITY || bound >= incumbent.cutoff() && incumbent.order.is_some();
+    let bound = bound.min(incumbent.cost).min(incumbent.beyond);
+    Proof { order: incumbent.order.clone(), bound, closed }
 }
 
 struct Prover<'p, 'a, 'b> {
@@ -117,6 +124,12 @@ impl<'p, 'a, 'b> Prover<'p, 'a, 'b> {
 
     fn prove<const W: usize>(mut self, rounds: u32) -> Proof {
         let mut bound = f64::NEG_INFINITY;
+        if self.model.len() > SMALL {
+            bound = quick(self.model, self.incumbent.cost);
+            if bound >= self.incumbent.cutoff() {
+                return self.closed();
+            }
+        }
         let mut ascent = self.begin();
         let most_labels = MOST_LABEL_BYTES / Search::<W>::LABEL_BYTES;
         let mut labels = FIRST_LABELS;

@@ -307,8 +307,8 @@ impl<'n> Relaxation<'n> {
             return CLOSED;
         }
         match self.resource {
-            Resource::Time => self.interval(next.arrive_s) as u16,
-            Resource::Energy => self.interval(energy_j) as u16,
+            Resource::Time => self.interval(next.arrive_s).max(b) as u16,
+            Resource::Energy => self.interval(energy_j).max(b) as u16,
             Resource::Stops if b + 1 < self.intervals => b as u16 + 1,
             Resource::Stops => CLOSED,
         }
@@ -328,11 +328,13 @@ impl<'n> Relaxation<'n> {
             self.value[b * total..(b + 1) * total].fill(f64::INFINITY);
             // Paths that stay within an interval are followed until none of them gets cheaper.
             for _pass in 0..n.max(1) {
-                let mut again = false;
+                let (mut fell, mut within) = (false, false);
                 for i in 0..n {
-                    again |= self.pull(prizes, b, i);
+                    let (own_fell, own_within) = self.pull(prizes, b, i);
+                    fell |= own_fell;
+                    within |= own_within;
                 }
-                if !again {
+                if !fell || !within {
                     break;
                 }
             }
@@ -346,10 +348,11 @@ impl<'n> Relaxation<'n> {
         &self.graph.live[(b * n + i) * self.tally.states..(b * n + i + 1) * self.tally.states]
     }
 
-    /// Values at a candidate from those ahead of it; whether one fell that the interval itself looks at.
-    fn pull(&mut self, prizes: &[f64], b: usize, i: usize) -> bool {
+    /// Values at a candidate from those ahead of it; whether one fell, and whether it looks at others of its
+    /// own interval.
+    fn pull(&mut self, prizes: &[f64], b: usize, i: usize) -> (bool, bool) {
         if self.live(b, i).iter().all(|live| !live) {
-            return false;
+            return (false, false);
         }
         let network = self.network;
         let (n, arcs, total) = (prizes.len(), network.arcs.len(), self.offset[prizes.len()]);
@@ -391,10 +394,10 @@ impl<'n> Relaxation<'n> {
             best[masks * self.tally.met()..].fill(f64::INFINITY);
         }
         let values = &mut self.value[own..own + best.len()];
-        let fell = within && values.iter().zip(&best).any(|(old, new)| new < old);
+        let fell = values.iter().zip(&best).any(|(old, new)| new < old);
         values.copy_from_slice(&best);
         self.scratch = best;
-        fell
+        (fell, within)
     }
 
     /// What the tour without stops costs; infinite if it may not be made.

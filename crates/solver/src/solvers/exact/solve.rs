@@ -70,8 +70,13 @@ fn improved(
     rng: &mut Pcg64Mcg,
     budget: &mut Budget<'_>,
 ) -> Vec<u32> {
+    // A construction cut short would be worse than one made with less time: it is finished first.
+    let built = if order.is_empty() { 2 * instance.len() as u64 } else { 0 };
     let outer = std::cell::RefCell::new(budget);
-    let stop = |done: u64| done >= iterations || done > 0 && !outer.borrow_mut().spend();
+    let stop = |done: u64| {
+        let more = done == 0 || outer.borrow_mut().spend();
+        done >= built + iterations || !more && done >= built
+    };
     baseline::search(instance, order, rng, &mut Budget::new(&stop)).order
 }
 
