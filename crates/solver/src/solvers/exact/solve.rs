@@ -6,13 +6,13 @@ use super::{Aim, Effort, Incumbent, Model, prove};
 use crate::instance::Instance;
 use crate::scenario::Objective;
 use crate::solvers::entry::{Claim, Found};
-use crate::solvers::{Budget, SolverName, baseline};
+use crate::solvers::{Budget, SolverName, baseline, enumerate};
 use crate::tour::{Tour, Value};
 
 /// Iterations of the baseline before the first bound: a good tour of a small instance.
 const FIRST: u64 = 60;
-/// Iterations of the baseline before it is asked whether any tour is feasible at all.
-const BEFORE_DOUBT: u64 = 2_000;
+/// Iterations of the baseline for a tour that breaks as little as can be.
+const BEST_EFFORT: u64 = 2_000;
 /// Iterations of the baseline that make a proven tour shorter, or earlier, without changing its objective.
 const POLISH: u64 = 400;
 
@@ -29,16 +29,18 @@ pub fn solve(
     let mut order = improved(instance, start, FIRST, rng, budget);
     let mut claim = Claim::None;
     if !is_feasible(instance, &order) {
-        order = improved(instance, &order, BEFORE_DOUBT, rng, budget);
-    }
-    if !is_feasible(instance, &order) {
         let model = Model::new(instance, Aim::AnyTour);
         let mut any = Incumbent::none(&model);
         let proof = prove(&model, effort, &mut any, rng, budget);
         match proof.order {
             Some(feasible) => order = feasible,
-            None if proof.closed && any.beyond == f64::INFINITY => claim = Claim::Infeasible,
-            None => {}
+            None => {
+                if proof.closed && any.beyond == f64::INFINITY {
+                    claim = Claim::Infeasible;
+                }
+                // What cannot be done whole is done as far as it goes.
+                order = polished(instance, &order, BEST_EFFORT, rng, budget);
+            }
         }
     }
     if claim == Claim::None {
@@ -50,7 +52,7 @@ pub fn solve(
             (Some(best), _) => {
                 order = best;
                 if proof.closed && instance.scenario.objective != Objective::MinDistance {
-                    order = improved(instance, &order, POLISH, rng, budget);
+                    order = polished(instance, &order, POLISH, rng, budget);
                 }
                 Claim::Bound(objective(instance, proof.bound))
             }
@@ -60,6 +62,22 @@ pub fn solve(
     }
     let iterations = vec![("proof".to_owned(), budget.iterations() - before)];
     Found { order, solver: SolverName::Exact, iterations, claim }
+}
+
+/// The best of all tours where they are few; else the tour after some iterations of the baseline.
+fn polished(
+    instance: &Instance<'_>,
+    order: &[u32],
+    iterations: u64,
+    rng: &mut Pcg64Mcg,
+    budget: &mut Budget<'_>,
+) -> Vec<u32> {
+    if instance.len() > enumerate::MOST {
+        return improved(instance, order, iterations, rng, budget);
+    }
+    let found = baseline::solve(instance, order, rng, budget).order;
+    let value = |order: &[u32]| Value::of(instance, &Tour::new(instance, order));
+    if value(&found).beats(&value(order)) { found } else { order.to_vec() }
 }
 
 /// The tour after some iterations of the baseline, or as it was if they make it no better.
