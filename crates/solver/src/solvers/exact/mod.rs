@@ -1,6 +1,6 @@
 //! Proof: the best tour with a bound that shows it, or that there is none.
 //!
-//! One machine serves every combination of objective and constraints. A [`Model`] states what is proven, with
+//! One machine serves every combination of objective and constraints. A model states what is proven, with
 //! limits as wide as the check lets them be. Lower bounds come from relaxed paths (ng-paths, layered by
 //! the scarcest resource) with Lagrangian prizes for what must be served; they become tighter round by
 //! round, as paths remember more neighbours, count more demands and keep finer times. Under these bounds a

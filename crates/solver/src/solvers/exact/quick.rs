@@ -29,7 +29,7 @@ pub fn quick(model: &Model<'_>, incumbent_cost: f64) -> f64 {
     -if counts { (most + 1e-6).floor() } else { most }
 }
 
-/// [`quick`] as a bound on the objective, where `known` is that of a feasible tour. None says that no tour
+/// The bound without paths on the objective, where `known` is that of a feasible tour. None says that no tour
 /// meets what must be served.
 pub fn quick_bound(instance: &Instance<'_>, known: Option<f64>) -> Option<f64> {
     let model = Model::new(instance, Aim::Optimum);
