@@ -1,4 +1,4 @@
-//! The smallest scenarios that show defects which are known and not yet mended.
+//! The smallest scenarios that showed defects, so that none of them comes back.
 
 use voltour_solver::check::check;
 use voltour_solver::instance::Instance;

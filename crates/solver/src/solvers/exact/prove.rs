@@ -1,4 +1,4 @@
-//! The proof: an incumbent, bounds of rising quality, and branches where one search does not close them.
+//! The proof: an incumbent, and rounds of better bounds and longer searches until one of them closes.
 
 use rand_pcg::Pcg64Mcg;
 
