@@ -2,12 +2,16 @@
 //! tour after so many seconds to the quick bound, and the seconds that the bound took.
 #![allow(clippy::disallowed_methods, clippy::print_stdout, clippy::unwrap_used)]
 
+mod support;
+
 use std::time::Instant;
 
 use voltour_solver::generate::{Mobile, Reward, mobile, reward};
 use voltour_solver::instance;
 use voltour_solver::scenario::{CoverageDocument, Document, Objective, Scenario};
 use voltour_solver::solvers::{Options, SolverName, exact::quick_bound, solve_compiled};
+
+use support::spent;
 
 fn main() {
     let args: Vec<String> = std::env::args().skip(1).collect();
@@ -99,11 +103,4 @@ fn prized(sensors: u32, stops: f64, seed: u64) -> Document {
     let leg_m = 600.0 / f64::from(sensors).sqrt();
     let capacity_j = stops * (4_000.0 + 600.0 * leg_m);
     reward(&Reward { sensors, alpha: 1.0, capacity_j, ..Reward::default() }, seed).unwrap()
-}
-
-/// Seconds of processor time of this thread where the system tells it, else since `begin`.
-fn spent(begin: Instant) -> f64 {
-    let text = std::fs::read_to_string("/proc/thread-self/schedstat").ok();
-    let nanoseconds = text.and_then(|text| text.split(' ').next()?.parse::<f64>().ok());
-    nanoseconds.map_or_else(|| begin.elapsed().as_secs_f64(), |nanoseconds| nanoseconds / 1e9)
 }

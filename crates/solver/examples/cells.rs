@@ -5,13 +5,16 @@
 //! run found, mean and largest gap over them, median time of the short run.
 #![allow(clippy::disallowed_methods, clippy::print_stdout, clippy::unwrap_used)]
 
+mod support;
+
 use std::time::Instant;
 
 use voltour_solver::check::check;
-use voltour_solver::generate::{KCoverage, Mobile, Reward, k_coverage, mobile, reward};
 use voltour_solver::plan::Plan;
-use voltour_solver::scenario::{Document, Scenario};
+use voltour_solver::scenario::Scenario;
 use voltour_solver::solvers::{Options, SolverName, solve};
+
+use support::{draw, spent};
 
 const CELLS: [&str; 14] = [
     "48/3/0.45",
@@ -29,36 +32,6 @@ const CELLS: [&str; 14] = [
     "48/3/0.6",
     "48/3/0.8",
 ];
-
-fn draw(cell: &str, seed: u64) -> Document {
-    let parts: Vec<&str> = cell.split('/').collect();
-    let number = |i: usize| parts[i].parse::<f64>().unwrap();
-    match parts[0] {
-        "reward" => reward(
-            &Reward {
-                sensors: number(1) as u32,
-                capacity_j: number(2),
-                alpha: 1.0,
-                ..Reward::default()
-            },
-            seed,
-        ),
-        "mobile" => mobile(
-            &Mobile { sensors: number(1) as u32, timespan_s: number(2), ..Mobile::default() },
-            seed,
-        ),
-        _ => k_coverage(
-            &KCoverage {
-                sensors: number(0) as u32,
-                k: number(1) as u32,
-                alpha: number(2),
-                ..KCoverage::default()
-            },
-            seed,
-        ),
-    }
-    .unwrap()
-}
 
 fn run(scenario: &Scenario, seconds: f64, seed: u64) -> (Plan, f64) {
     let begin = Instant::now();
@@ -122,12 +95,4 @@ fn main() {
             1e3 * times[times.len() - 1],
         );
     }
-}
-
-/// Seconds of processor time of this thread where the system tells it, so that a busy machine measures
-/// the same; else seconds since `begin`.
-fn spent(begin: Instant) -> f64 {
-    let text = std::fs::read_to_string("/proc/thread-self/schedstat").ok();
-    let nanoseconds = text.and_then(|text| text.split(' ').next()?.parse::<f64>().ok());
-    nanoseconds.map_or_else(|| begin.elapsed().as_secs_f64(), |nanoseconds| nanoseconds / 1e9)
 }

@@ -2,11 +2,15 @@
 //! values: `gaps SECONDS SEEDS SOLVER [--best TABLE.csv] FILE...`.
 #![allow(clippy::disallowed_methods, clippy::print_stdout, clippy::unwrap_used)]
 
+mod support;
+
 use std::time::Instant;
 
 use voltour_solver::check;
 use voltour_solver::scenario::Scenario;
 use voltour_solver::solvers::{Options, solve};
+
+use support::spent;
 
 fn main() {
     let mut args = std::env::args().skip(1);
@@ -58,12 +62,4 @@ fn main() {
     if count > 0.0 {
         println!("mean gap {:.3} %", sum / count);
     }
-}
-
-/// Seconds of processor time of this thread where the system tells it, so that a busy machine measures
-/// the same; else seconds since `begin`.
-fn spent(begin: Instant) -> f64 {
-    let text = std::fs::read_to_string("/proc/thread-self/schedstat").ok();
-    let nanoseconds = text.and_then(|text| text.split(' ').next()?.parse::<f64>().ok());
-    nanoseconds.map_or_else(|| begin.elapsed().as_secs_f64(), |nanoseconds| nanoseconds / 1e9)
 }

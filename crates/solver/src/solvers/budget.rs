@@ -1,5 +1,7 @@
 //! The iterations that a search has done and may still do.
 
+use std::cell::RefCell;
+
 use super::SolverName;
 use crate::stop::StopRule;
 
@@ -23,6 +25,22 @@ impl<'a> Budget<'a> {
             self.stopped = self.stop.should_stop(self.iterations);
         }
         !self.stopped
+    }
+
+    /// Runs a search on a part of this budget: at most `most` iterations, counted here too. The rule is
+    /// heeded only after the first `least`, which the search is always given.
+    pub fn part<T>(
+        &mut self,
+        least: u64,
+        most: u64,
+        search: impl FnOnce(&mut Budget<'_>) -> T,
+    ) -> T {
+        let whole = RefCell::new(self);
+        let stop = |done: u64| {
+            let goes_on = done == 0 || whole.borrow_mut().spend();
+            done >= most || !goes_on && done >= least
+        };
+        search(&mut Budget::new(&stop))
     }
 
     /// Tells the rule's host that a solver is done with its part.

@@ -3,6 +3,8 @@
 //! `VOLTOUR_TRIALS` scales the tests that draw scenarios; it is the number of trials of the largest.
 #![allow(clippy::unwrap_used, clippy::panic)]
 
+#[path = "../golden/mod.rs"]
+mod golden;
 #[path = "../mixed/mod.rs"]
 mod mixed;
 

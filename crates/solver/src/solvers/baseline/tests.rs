@@ -11,6 +11,8 @@ use crate::stop::MaxIterations;
 use crate::tolerance::agrees;
 use crate::tour::{Tour, Value};
 
+#[path = "../../../tests/golden/mod.rs"]
+mod golden;
 #[path = "../../../tests/mixed/mod.rs"]
 mod mixed;
 
@@ -40,24 +42,9 @@ fn the_search_finds_what_the_enumeration_finds() {
     assert!(missed.len() <= MISSES, "{}: {missed:?}", missed.len());
 }
 
-/// Small scenarios of every kind, kept as files, with the optimum that the enumeration finds.
-const GOLDEN: [(&str, f64); 11] = [
-    ("coverage-6", 1602.4040091482204),
-    ("coverage-13", 1005.1308956551946),
-    ("reward-0", 24897.260210999997),
-    ("reward-1", 27008.946648000005),
-    ("mobile-1", 7.0),
-    ("mobile-2", 7.0),
-    ("mixed-7", 215.77702935500295),
-    ("mixed-11", 229.57470766062988),
-    ("mixed-20", 406.2721076425302),
-    ("mixed-21", 5.0),
-    ("mixed-24", 3.0),
-];
-
 #[test]
 fn golden_scenarios_keep_their_optimum() {
-    for (name, optimum) in GOLDEN {
+    for (name, optimum) in golden::GOLDEN {
         let path = format!("{}/tests/golden/{name}.json", env!("CARGO_MANIFEST_DIR"));
         let scenario = Scenario::from_json(&std::fs::read(path).unwrap()).unwrap();
         let instance = Instance::new(&scenario);

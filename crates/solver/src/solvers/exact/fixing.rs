@@ -4,8 +4,8 @@ use super::relaxation::{CLOSED, Reading, Relaxation, Resource};
 
 impl Relaxation<'_> {
     /// Closes, in every interval, the arcs over which the least cost of a path is `most` or more. The
-    /// values must be those of these prizes. Gives the share of arcs still open.
-    pub fn fix(&mut self, prizes: &[f64], most: f64) -> f64 {
+    /// values must be those of these prizes.
+    pub fn fix(&mut self, prizes: &[f64], most: f64) {
         let network = self.network;
         let (n, arcs, total) = (prizes.len(), network.arcs.len(), self.offset[prizes.len()]);
         let mut reached = vec![f64::INFINITY; self.intervals * total];
@@ -14,7 +14,6 @@ impl Relaxation<'_> {
             let state = self.states(b as usize, to, self.tally.after(0, to));
             reached[state] = network.arcs[a].cost - prizes[to as usize];
         }
-        let mut open = 0;
         for b in 0..self.intervals {
             // A path is rounded down at every stop: a tour may be later than its path, never earlier.
             if b > 0 && self.reading == Reading::Tours && self.resource != Resource::Stops {
@@ -60,13 +59,10 @@ impl Relaxation<'_> {
                     });
                     if least >= most {
                         self.graph.arrives[b * arcs + a] = CLOSED;
-                    } else {
-                        open += 1;
                     }
                 }
             }
         }
-        open as f64 / (self.intervals * arcs).max(1) as f64
     }
 
     /// Every pair of states that an arc joins: the tail's among those of its candidate, the head's among all.

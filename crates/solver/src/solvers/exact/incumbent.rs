@@ -1,6 +1,7 @@
 //! The best tour that a proof has, and what another must cost to be worth looking for.
 
 use super::model::{Aim, Model};
+use crate::instance::Demand;
 use crate::tolerance::tolerance;
 use crate::tour::simulate;
 
@@ -43,26 +44,21 @@ impl Incumbent {
         self.any && self.order.is_some()
     }
 
-    /// Takes the tour of an order if it is feasible and better.
-    pub fn offer_order(&mut self, model: &Model<'_>, order: Vec<u32>) {
-        let (runs, legal) = simulate(model.strict, &order);
-        let met = |d: &crate::instance::Demand| {
-            d.members.iter().filter(|m| order.contains(m)).count() >= d.needs as usize
-        };
-        if legal && model.demands.iter().all(met) {
-            let gain = order.iter().map(|&c| model.gains[c as usize]).sum();
-            let length_m = runs.last().map_or(0.0, |run| run.distance_m);
-            let cost = model.cost(length_m, gain);
-            if cost < self.cost {
-                self.cost = cost;
-                self.order = Some(order);
-            }
+    /// Takes a solver's tour if it is feasible and better.
+    pub fn offer(&mut self, model: &Model<'_>, order: Vec<u32>) {
+        let met =
+            |d: &Demand| d.members.iter().filter(|m| order.contains(m)).count() >= d.needs as usize;
+        if simulate(model.strict, &order).1 && model.demands.iter().all(met) {
+            self.offer_wide(model, order);
         }
     }
 
-    /// Takes a tour that is better, if it keeps a solver's limits.
-    pub fn offer(&mut self, model: &Model<'_>, order: Vec<u32>, cost: f64) {
-        let (_, legal) = simulate(model.strict, &order);
+    /// Takes a tour that meets every demand within the check's tolerance, if it is better and keeps a solver's
+    /// limits too.
+    pub fn offer_wide(&mut self, model: &Model<'_>, order: Vec<u32>) {
+        let (runs, legal) = simulate(model.strict, &order);
+        let gain = order.iter().map(|&c| model.gains[c as usize]).sum();
+        let cost = model.cost(runs.last().map_or(0.0, |run| run.distance_m), gain);
         if !legal {
             self.beyond = self.beyond.min(cost);
         } else if cost < self.cost {
@@ -75,17 +71,14 @@ impl Incumbent {
 /// The largest whole number of which all costs are multiples; 0 if they are not whole.
 fn grain(model: &Model<'_>) -> f64 {
     let instance = &model.wide;
-    let places = 0..instance.len() + 2;
-    let mut costs: Vec<f64> = model.gains.clone();
-    if model.length_counts {
-        if instance.moving {
-            return 0.0;
-        }
-        let from = |a: usize| places.clone().map(move |b| (a, b)).filter(|(a, b)| a != b);
-        costs.extend(places.clone().flat_map(from).map(|(a, b)| instance.distance_m(a, b)));
+    if model.length_counts && instance.moving {
+        return 0.0;
     }
+    let places = if model.length_counts { instance.len() + 2 } else { 0 };
+    let pairs = (0..places).flat_map(|a| (0..places).map(move |b| (a, b)));
+    let legs = pairs.filter(|(a, b)| a != b).map(|(a, b)| instance.distance_m(a, b));
     let mut grain = 0_u64;
-    for cost in costs {
+    for cost in model.gains.iter().copied().chain(legs) {
         if cost.fract() != 0.0 || !(0.0..1e9).contains(&cost) {
             return 0.0;
         }

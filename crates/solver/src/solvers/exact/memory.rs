@@ -7,7 +7,7 @@
 use super::network::Network;
 
 /// Neighbours that a candidate remembers at most.
-pub const MOST: usize = 12;
+const MOST: usize = 12;
 
 /// For each candidate the neighbours that it remembers; a state is a candidate with a subset of them.
 #[derive(Clone, Debug)]
@@ -34,19 +34,16 @@ impl Memory {
         Self { of }
     }
 
-    /// Makes the candidates between two visits of `back` remember it. Whether one learned it.
-    pub fn learn(&mut self, back: u32, between: &[u32], most: usize) -> bool {
-        let mut learned = false;
+    /// Makes the candidates between two visits of `back` remember it, if they remember fewer than `most`.
+    pub fn learn(&mut self, back: u32, between: &[u32], most: usize) {
         for &candidate in between {
             let near = &mut self.of[candidate as usize];
             if near.len() < most.min(MOST)
                 && let Err(place) = near.binary_search(&back)
             {
                 near.insert(place, back);
-                learned = true;
             }
         }
-        learned
     }
 
     /// The subset of what `candidate` remembers for which `visited` holds, as a mask.

@@ -10,6 +10,8 @@ mod bits;
 mod clusters;
 mod fixing;
 mod incumbent;
+mod layers;
+mod layout;
 mod memory;
 mod moats;
 mod model;

@@ -14,8 +14,12 @@ pub enum Aim {
     AnyTour,
 }
 
+/// Beyond this many candidates a matrix is taken to break the triangle inequality: looking would take longer
+/// than what it may save.
+const MOST_TRIANGLES: usize = 300;
+
 /// An instance as the proof sees it. Costs are minimised: metres, or negated rewards.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct Model<'a> {
     /// With limits that hold for every tour that the check accepts.
     pub wide: Instance<'a>,
@@ -62,7 +66,8 @@ impl<'a> Model<'a> {
         }
         let drains = wide.candidates.iter().any(|c| c.drain_w > 0.0);
         let energy_counts = wide.capacity_j.is_finite();
-        let triangle = wide.metric || !wide.moving && keeps_triangle(&wide);
+        let looked_at = !wide.moving && wide.len() <= MOST_TRIANGLES;
+        let triangle = wide.metric || looked_at && keeps_triangle(&wide);
         Self {
             useful_only: gains.iter().all(|&gain| gain == 0.0) && !wide.moving && triangle,
             direct: wide.moving && !energy_counts || !wide.moving && triangle,

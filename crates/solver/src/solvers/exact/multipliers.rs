@@ -51,9 +51,9 @@ impl Multipliers {
 pub struct Ascent {
     /// The best multipliers so far.
     pub best: Multipliers,
-    pub at: Multipliers,
+    at: Multipliers,
     direction: Vec<f64>,
-    pub step: f64,
+    step: f64,
     stalled: u32,
     /// By demand, how far paths are from its needs on average, the later ones weighing more.
     misses: Vec<f64>,

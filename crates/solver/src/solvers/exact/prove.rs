@@ -3,7 +3,8 @@
 use rand_pcg::Pcg64Mcg;
 
 use super::incumbent::Incumbent;
-use super::memory::{self, Memory};
+use super::layers::{INTERVALS, MOST_ARRIVALS, layers, resource};
+use super::memory::Memory;
 use super::model::{Aim, Model};
 use super::multipliers::{Ascent, Multipliers};
 use super::network::Network;
@@ -47,8 +48,7 @@ const MOST_LABEL_BYTES: usize = 600 << 20;
 const LABELS_PER_ITERATION: usize = 12;
 const LABELS_PER_MOVING_ITERATION: usize = 500;
 const MOST_ITERATIONS: u64 = 20_000;
-/// Layers of time or energy at first; of time at most, where metres are the cost and where gains are.
-const INTERVALS: usize = 96;
+/// Layers of time at most, where metres are the cost and where gains are.
 const MOST_INTERVALS: usize = 200;
 const MOST_INTERVALS_OF_GAIN: usize = 800;
 /// Neighbours that every candidate remembers from the beginning.
@@ -59,8 +59,6 @@ const MOST_TALLY: usize = 128;
 const SMALL: usize = 128;
 /// Values that the bounds may take up.
 const MOST_VALUES: usize = 40_000_000;
-/// Arcs over all layers for which paths are laid out at all.
-const MOST_ARRIVALS: usize = 60_000_000;
 
 /// Proves on, from what is known, until closed or the budget is spent.
 pub fn prove(
@@ -242,6 +240,12 @@ impl<'p, 'a, 'b> Prover<'p, 'a, 'b> {
         let path = self.paths.path(&ascent.best.prizes);
         let mut memory = self.paths.memory().clone();
         learn(&mut memory, &path, most);
+        if self.late(&path) && self.may_split() {
+            self.paths.split(self.model);
+        }
+        if self.paths.size(&memory, self.paths.tally().states) > MOST_VALUES {
+            memory = self.paths.memory().clone();
+        }
         let mut tally = self.paths.tally().clone();
         if let Some(demand) = ascent.loosest(self.model) {
             let states = tally.states * (self.model.demands[demand].needs as usize + 1);
@@ -252,21 +256,17 @@ impl<'p, 'a, 'b> Prover<'p, 'a, 'b> {
                 ascent.count(self.model, demand);
             }
         }
-        if self.paths.resource() == Resource::Time
-            && self.paths.intervals() < self.most_intervals()
-            && self.late(&path)
-        {
-            self.paths.split(self.model);
-        }
-        if self.paths.size(&memory, tally.states) < MOST_VALUES {
-            self.paths.refine(memory, tally);
-        } else {
-            self.paths.refine(self.paths.memory().clone(), tally);
-        }
+        self.paths.refine(memory, tally);
     }
 
-    fn most_intervals(&self) -> usize {
-        if self.model.length_counts { MOST_INTERVALS } else { MOST_INTERVALS_OF_GAIN }
+    /// Whether finer times are of use and within what memory allows.
+    fn may_split(&self) -> bool {
+        let most = if self.model.length_counts { MOST_INTERVALS } else { MOST_INTERVALS_OF_GAIN };
+        let values = self.paths.size(self.paths.memory(), self.paths.tally().states);
+        self.paths.resource() == Resource::Time
+            && self.paths.intervals() < most
+            && 2 * self.paths.arrivals() <= MOST_ARRIVALS
+            && 2 * values <= MOST_VALUES
     }
 
     /// Whether a relaxed path misses a deadline, which rounding of times hides.
@@ -284,11 +284,11 @@ impl<'p, 'a, 'b> Prover<'p, 'a, 'b> {
         let per_iteration =
             if self.model.wide.moving { LABELS_PER_MOVING_ITERATION } else { LABELS_PER_ITERATION };
         let iterations = ((labels / per_iteration) as u64).min(MOST_ITERATIONS);
-        let outer = std::cell::RefCell::new(&mut *self.budget);
-        let stop = |done: u64| done >= iterations || done > 0 && !outer.borrow_mut().spend();
         let start = self.incumbent.order.clone().unwrap_or_default();
-        let found = baseline::search(self.model.strict, &start, self.rng, &mut Budget::new(&stop));
-        self.incumbent.offer_order(self.model, found.order);
+        let (strict, rng) = (self.model.strict, &mut *self.rng);
+        let search = |part: &mut Budget<'_>| baseline::search(strict, &start, rng, part);
+        let found = self.budget.part(0, iterations, search);
+        self.incumbent.offer(self.model, found.order);
     }
 
     fn closed(&self) -> Proof {
@@ -302,67 +302,11 @@ impl<'p, 'a, 'b> Prover<'p, 'a, 'b> {
     }
 }
 
-/// Makes the candidates on each way round remember where it began; whether one learned.
-fn learn(memory: &mut Memory, path: &[u32], most: usize) -> bool {
-    let mut learned = false;
+/// Makes the candidates on each way round remember where it began.
+fn learn(memory: &mut Memory, path: &[u32], most: usize) {
     for (end, &stop) in path.iter().enumerate() {
         if let Some(begin) = path[..end].iter().rposition(|&other| other == stop) {
-            learned |= memory.learn(stop, &path[begin + 1..end], most.min(memory::MOST));
-        }
-    }
-    learned
-}
-
-/// The resource whose limits bind the most.
-fn resource(model: &Model<'_>) -> Resource {
-    if model.energy_counts && !model.length_counts {
-        Resource::Energy
-    } else if model.time_counts {
-        Resource::Time
-    } else {
-        Resource::Stops
-    }
-}
-
-/// Number of intervals and where they end.
-fn layers(
-    model: &Model<'_>,
-    network: &Network,
-    incumbent: &Incumbent,
-    resource: Resource,
-) -> (usize, f64) {
-    let instance = &model.wide;
-    let charger = &instance.scenario.charger;
-    match resource {
-        Resource::Stops => (model.len().max(1), 0.0),
-        Resource::Energy => (INTERVALS, instance.capacity_j.max(1e-9)),
-        Resource::Time => {
-            let reachable = (0..model.len()).filter(|&i| network.earliest_s[i].is_finite());
-            let due = reachable.map(|i| instance.candidates[i].due_s).fold(0.0, f64::max);
-            let mut horizon = due.min(instance.timespan_s);
-            if model.length_counts && incumbent.cost.is_finite() {
-                // No better tour is on its way for longer: it travels less, charges each once, and waits
-                // at most until the last is ready.
-                let charge_s = instance
-                    .candidates
-                    .iter()
-                    .map(|c| c.charge_j(c.due_s.min(c.empty_s()).min(1e300)) / charger.transfer_w);
-                let ready = instance.candidates.iter().map(|c| c.ready_s).fold(0.0, f64::max);
-                let travel_s = incumbent.cost / charger.speed_mps;
-                horizon = horizon.min(ready + charge_s.sum::<f64>() + travel_s);
-            }
-            if !horizon.is_finite() {
-                // Nothing is scarce after the last deadline.
-                let due = instance.candidates.iter().map(|c| c.due_s).filter(|due| due.is_finite());
-                horizon = due.fold(1.0, f64::max);
-            }
-            let horizon = horizon.max(1e-9);
-            // Where every arc leads into a later interval, no layer needs a second look.
-            let fine = (horizon / network.least_step(model)).ceil();
-            if fine <= 3.0 * INTERVALS as f64 {
-                return ((fine as usize + 1).max(INTERVALS), horizon);
-            }
-            (INTERVALS, horizon)
+            memory.learn(stop, &path[begin + 1..end], most);
         }
     }
 }

@@ -278,7 +278,7 @@ impl<'s, 'a, const W: usize> Search<'s, 'a, W> {
         let cost = model.cost(home.distance_m, label.gain);
         if model.wide.keeps_limits(&home) && cost < self.incumbent.cutoff() {
             let order = self.order(index);
-            self.incumbent.offer(model, order, cost);
+            self.incumbent.offer_wide(model, order);
         }
     }
 

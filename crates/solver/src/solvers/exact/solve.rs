@@ -46,7 +46,7 @@ pub fn solve(
     if claim == Claim::None {
         let model = Model::new(instance, Aim::Optimum);
         let mut incumbent = Incumbent::none(&model);
-        incumbent.offer_order(&model, order.clone());
+        incumbent.offer(&model, order.clone());
         let proof = prove(&model, effort, &mut incumbent, rng, budget);
         claim = match (proof.order, proof.closed) {
             (Some(best), _) => {
@@ -90,12 +90,8 @@ fn improved(
 ) -> Vec<u32> {
     // A construction cut short would be worse than one made with less time: it is finished first.
     let built = if order.is_empty() { 2 * instance.len() as u64 } else { 0 };
-    let outer = std::cell::RefCell::new(budget);
-    let stop = |done: u64| {
-        let more = done == 0 || outer.borrow_mut().spend();
-        done >= built + iterations || !more && done >= built
-    };
-    baseline::search(instance, order, rng, &mut Budget::new(&stop)).order
+    budget
+        .part(built, built + iterations, |part| baseline::search(instance, order, rng, part).order)
 }
 
 fn is_feasible(instance: &Instance<'_>, order: &[u32]) -> bool {

@@ -1,0 +1,67 @@
+//! Which resource layers the relaxed paths, and in how many intervals.
+
+use super::incumbent::Incumbent;
+use super::model::Model;
+use super::network::Network;
+use super::relaxation::Resource;
+
+/// Layers of time or energy at first.
+pub const INTERVALS: usize = 96;
+/// Arcs over all layers for which paths are laid out at all.
+pub const MOST_ARRIVALS: usize = 60_000_000;
+
+/// The resource whose limits bind the most.
+pub fn resource(model: &Model<'_>) -> Resource {
+    if model.energy_counts && !model.length_counts {
+        Resource::Energy
+    } else if model.time_counts {
+        Resource::Time
+    } else {
+        Resource::Stops
+    }
+}
+
+/// Number of intervals and where they end.
+pub fn layers(
+    model: &Model<'_>,
+    network: &Network,
+    incumbent: &Incumbent,
+    resource: Resource,
+) -> (usize, f64) {
+    let instance = &model.wide;
+    let charger = &instance.scenario.charger;
+    match resource {
+        Resource::Stops => (model.len().max(1), 0.0),
+        Resource::Energy => (INTERVALS, instance.capacity_j.max(1e-9)),
+        Resource::Time => {
+            let reachable = (0..model.len()).filter(|&i| network.earliest_s[i].is_finite());
+            let due = reachable.map(|i| instance.candidates[i].due_s).fold(0.0, f64::max);
+            let mut horizon = due.min(instance.timespan_s);
+            if model.length_counts && incumbent.cost.is_finite() {
+                // No better tour is on its way for longer: it travels less, charges each once, and waits
+                // at most until the last is ready.
+                let charge_s = instance
+                    .candidates
+                    .iter()
+                    .map(|c| c.charge_j(c.due_s.min(c.empty_s()).min(1e300)) / charger.transfer_w);
+                let ready = instance.candidates.iter().map(|c| c.ready_s).fold(0.0, f64::max);
+                let travel_s = incumbent.cost / charger.speed_mps;
+                horizon = horizon.min(ready + charge_s.sum::<f64>() + travel_s);
+            }
+            if !horizon.is_finite() {
+                // Nothing is scarce after the last deadline.
+                let due = instance.candidates.iter().map(|c| c.due_s).filter(|due| due.is_finite());
+                horizon = due.fold(1.0, f64::max);
+            }
+            let horizon = horizon.max(1e-9);
+            // Where every arc leads into a later interval, no layer needs a second look.
+            let fine = (horizon / network.least_step(model)).ceil();
+            if fine <= 3.0 * INTERVALS as f64
+                && fine * network.arcs.len() as f64 <= MOST_ARRIVALS as f64
+            {
+                return ((fine as usize + 1).max(INTERVALS), horizon);
+            }
+            (INTERVALS, horizon)
+        }
+    }
+}
