@@ -108,8 +108,8 @@ impl Planning {
     pub fn plan(self, scenario: &Scenario) -> Result<Plan, Failure> {
         let Self { solver, seed, limits } = self;
         let watch = Stopwatch::start();
-        let solved =
-            limits.within(|stop| solvers::solve(scenario, &Options { solver, seed, stop }));
+        let solved = limits
+            .within(|stop| solvers::solve(scenario, &Options { solver, seed, stop, policy: None }));
         let mut plan = solved.map_err(|error| Failure::input(format!("--solver: {error}")))?.plan;
         plan.elapsed_s = watch.elapsed().as_secs_f64();
         let broken = check(scenario, &plan);

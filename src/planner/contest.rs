@@ -178,7 +178,7 @@ impl Watch<'_> {
     }
 
     fn solve(&self, scenario: &Scenario, solver: SolverName) -> Result<Outcome, String> {
-        let options = Options { solver, seed: self.contest.seed, stop: self };
+        let options = Options { solver, seed: self.contest.seed, stop: self, policy: None };
         (self.contest.solve)(scenario, &options).map_err(|unavailable| unavailable.to_string())
     }
 }

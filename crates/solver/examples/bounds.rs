@@ -34,7 +34,7 @@ fn line(name: &str, scenario: &Scenario, seconds: f64) {
     let begin = Instant::now();
     let zero = spent(begin);
     let stop = |_: u64| spent(begin) - zero >= seconds;
-    let options = Options { solver: SolverName::Baseline, seed: 0, stop: &stop };
+    let options = Options { solver: SolverName::Baseline, seed: 0, stop: &stop, policy: None };
     let plan = solve_compiled(&instance, &options).unwrap().plan;
     let known = plan.status.is_feasible().then_some(plan.objective);
     let zero = spent(begin);

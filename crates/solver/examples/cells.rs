@@ -38,7 +38,7 @@ fn run(scenario: &Scenario, seconds: f64, seed: u64) -> (Plan, f64) {
     let zero = spent(begin);
 
     let stop = |i: u64| i.is_multiple_of(16) && spent(begin) - zero >= seconds;
-    let options = Options { solver: SolverName::Auto, seed, stop: &stop };
+    let options = Options { solver: SolverName::Auto, seed, stop: &stop, policy: None };
     let plan = solve(scenario, &options).unwrap().plan;
     let elapsed = spent(begin) - zero;
 

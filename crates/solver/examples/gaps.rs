@@ -35,7 +35,8 @@ fn main() {
             let zero = spent(begin);
 
             let stop = |i: u64| i.is_multiple_of(16) && spent(begin) - zero >= seconds;
-            let outcome = solve(&scenario, &Options { solver, seed, stop: &stop }).unwrap();
+            let outcome =
+                solve(&scenario, &Options { solver, seed, stop: &stop, policy: None }).unwrap();
             let elapsed = spent(begin) - zero;
 
             let faults = check::check(&scenario, &outcome.plan);

@@ -30,7 +30,7 @@ fn main() {
             let begin = Instant::now();
             let zero_s = spent(begin);
             let stop = |i: u64| i.is_multiple_of(16) && spent(begin) - zero_s >= limit_s;
-            let options = Options { solver: SolverName::Exact, seed: 0, stop: &stop };
+            let options = Options { solver: SolverName::Exact, seed: 0, stop: &stop, policy: None };
             let plan = solve(&scenario, &options).unwrap().plan;
             let elapsed_s = spent(begin) - zero_s;
             let broken = check(&scenario, &plan);

@@ -16,7 +16,7 @@
 //! let scenario = Scenario::from_document(&document)?;
 //!
 //! // 2. A plan: the same scenario, seed and iterations give the same tour, always.
-//! let options = Options { solver: SolverName::Auto, seed: 0, stop: &MaxIterations(1_000) };
+//! let options = Options { solver: SolverName::Auto, seed: 0, stop: &MaxIterations(1_000), policy: None };
 //! let plan = solve(&scenario, &options)?.plan;
 //! assert!(plan.status.is_feasible());
 //!
@@ -40,6 +40,7 @@ pub mod generate;
 pub mod instance;
 pub mod local_search;
 pub mod plan;
+pub mod policy;
 pub mod scenario;
 pub mod solvers;
 pub mod stop;

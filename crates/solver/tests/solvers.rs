@@ -10,7 +10,8 @@ use voltour_solver::solvers::{Options, Outcome, SolverName, empty_plan, plan_fro
 use voltour_solver::stop::MaxIterations;
 
 fn run(scenario: &Scenario, solver: SolverName, seed: u64, iterations: u64) -> Outcome {
-    solve(scenario, &Options { solver, seed, stop: &MaxIterations(iterations) }).unwrap()
+    solve(scenario, &Options { solver, seed, stop: &MaxIterations(iterations), policy: None })
+        .unwrap()
 }
 
 fn order(scenario: &Scenario, plan: &Plan) -> Vec<usize> {
@@ -88,7 +89,7 @@ fn a_run_cut_short_by_its_host_is_a_run_of_as_many_iterations() {
         let Ok(scenario) = Scenario::from_document(&mixed::draw(12, seed)) else { continue };
         // A host's clock, as far as a solver can tell.
         let cut = |iterations: u64| iterations >= 137 + 31 * seed;
-        let options = Options { solver: SolverName::Auto, seed: 1, stop: &cut };
+        let options = Options { solver: SolverName::Auto, seed: 1, stop: &cut, policy: None };
         let by_host = solve(&scenario, &options).unwrap();
         let by_count = run(&scenario, SolverName::Auto, 1, 137 + 31 * seed);
         assert_eq!(by_host.plan, by_count.plan);
@@ -132,7 +133,8 @@ fn the_order_of_the_document_does_not_change_the_value() {
 #[test]
 fn solvers_that_are_not_there_say_so() {
     let scenario = Scenario::from_document(&mixed::draw(3, 1)).unwrap();
-    let options = Options { solver: SolverName::Acs, seed: 0, stop: &MaxIterations(1) };
+    let options =
+        Options { solver: SolverName::Acs, seed: 0, stop: &MaxIterations(1), policy: None };
     assert_eq!(solve(&scenario, &options).unwrap_err().0, SolverName::Acs);
     assert_eq!("cmst".parse::<SolverName>().unwrap().to_string(), "cmst");
     assert!("best".parse::<SolverName>().is_err());

@@ -114,7 +114,7 @@ fn finite(limit: f64) -> Option<f64> {
 /// The greedy tour as candidates.
 fn greedy(scenario: &Scenario, candidates: &[Candidate]) -> Result<Vec<usize>, Box<dyn Error>> {
     let stop = MaxIterations(u64::MAX);
-    let options = Options { solver: SolverName::Greedy, seed: 0, stop: &stop };
+    let options = Options { solver: SolverName::Greedy, seed: 0, stop: &stop, policy: None };
     let plan = solve(scenario, &options)?.plan;
     let candidate_of = |id: &str| {
         candidates

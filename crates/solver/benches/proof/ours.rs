@@ -35,7 +35,7 @@ impl Ours {
         let (outcome, solve_s) = timed(|| {
             let clock = Clock::start();
             let stop = |_: u64| clock.elapsed_s() >= limit_s;
-            let options = Options { solver: arguments.solver, seed: 0, stop: &stop };
+            let options = Options { solver: arguments.solver, seed: 0, stop: &stop, policy: None };
             solve_compiled(black_box(&instance), &options)
         });
         let plan = outcome?.plan;

@@ -16,7 +16,7 @@ pub(super) fn plan_of(scenario: &Scenario, seed: u64, meter: &mut Meter<'_>) -> 
         return None;
     }
     let solved = meter.lend(ITERATIONS, |stop| {
-        solve(scenario, &Options { solver: SolverName::Auto, seed, stop })
+        solve(scenario, &Options { solver: SolverName::Auto, seed, stop, policy: None })
     });
     solved.ok().map(|outcome| outcome.plan)
 }

@@ -7,6 +7,7 @@ use super::plan_of::plan_of;
 use super::{Budget, SolverName, auto, baseline, exact, greedy, random};
 use crate::instance::Instance;
 use crate::plan::{Plan, Status};
+use crate::policy::{QError, QFunction};
 use crate::scenario::{Objective, Scenario};
 use crate::stop::StopRule;
 use crate::tolerance::tolerance;
@@ -20,6 +21,8 @@ pub struct Options<'a> {
     pub seed: u64,
     /// When to end at the latest.
     pub stop: &'a dyn StopRule,
+    /// The trained policy of the scenario's problem, where there is one; `dqn` needs it, `auto` uses it.
+    pub policy: Option<&'a dyn QFunction>,
 }
 
 /// What a solve gave.
@@ -31,6 +34,21 @@ pub struct Outcome {
     pub iterations: Vec<(String, u64)>,
     /// The solvers that took part and what each found.
     pub contenders: Vec<Contender>,
+    /// How the policy fared.
+    pub policy: PolicyUse,
+}
+
+/// How the policy fared in a solve.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum PolicyUse {
+    /// It was not needed, or not passed.
+    Unused,
+    /// It built a feasible tour.
+    Built,
+    /// It found no feasible tour.
+    NoTour,
+    /// It broke down.
+    Failed(QError),
 }
 
 /// A solver that took part.
@@ -144,6 +162,7 @@ fn outcome(instance: &Instance<'_>, all: &[Found]) -> Outcome {
         plan: best.map_or_else(|| plan_of(instance, &[], SolverName::Auto.name()), plan),
         iterations: all.iter().flat_map(|found| found.iterations.clone()).collect(),
         contenders: all.iter().map(contender).collect(),
+        policy: PolicyUse::Unused,
     }
 }
 

@@ -19,6 +19,7 @@ mod shortcut;
 
 pub use budget::Budget;
 pub use entry::{
-    Contender, Options, Outcome, Unavailable, empty_plan, plan_from_order, solve, solve_compiled,
+    Contender, Options, Outcome, PolicyUse, Unavailable, empty_plan, plan_from_order, solve,
+    solve_compiled,
 };
 pub use name::{SolverName, UnknownSolver};

@@ -10,7 +10,8 @@ pub const AMPLE: u64 = 1_000_000;
 
 /// The plan of the exact solver.
 pub fn exact(scenario: &Scenario, seed: u64, iterations: u64) -> Plan {
-    let options = Options { solver: SolverName::Exact, seed, stop: &MaxIterations(iterations) };
+    let options =
+        Options { solver: SolverName::Exact, seed, stop: &MaxIterations(iterations), policy: None };
     solve(scenario, &options).unwrap().plan
 }
 

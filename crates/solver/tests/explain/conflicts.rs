@@ -10,7 +10,9 @@ use crate::{mixed, oracle};
 
 pub fn plan(scenario: &Scenario, iterations: u64) -> Plan {
     let stop = MaxIterations(iterations);
-    solve(scenario, &Options { solver: SolverName::Auto, seed: 0, stop: &stop }).unwrap().plan
+    solve(scenario, &Options { solver: SolverName::Auto, seed: 0, stop: &stop, policy: None })
+        .unwrap()
+        .plan
 }
 
 /// Draws scenarios until so many have no feasible tour, and gives each to a test.

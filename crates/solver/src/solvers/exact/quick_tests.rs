@@ -18,7 +18,7 @@ mod mixed;
 fn both(scenario: &Scenario) -> Option<(f64, f64)> {
     let plan = {
         let stop = MaxIterations(100_000);
-        let options = Options { solver: SolverName::Exact, seed: 0, stop: &stop };
+        let options = Options { solver: SolverName::Exact, seed: 0, stop: &stop, policy: None };
         solve(scenario, &options).unwrap().plan
     };
     let sign = if scenario.objective == Objective::MinDistance { 1.0 } else { -1.0 };

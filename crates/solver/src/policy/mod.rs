@@ -1,0 +1,9 @@
+//! The policy: what a state looks like to a Q-function, and the search that a Q-function guides.
+
+mod batch;
+mod feature;
+mod q_function;
+
+pub use batch::Batch;
+pub use feature::{FEATURE_VERSION, FEATURES, IN_TOUR, REWARD};
+pub use q_function::{QError, QFunction};
