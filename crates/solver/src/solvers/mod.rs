@@ -23,3 +23,4 @@ pub use entry::{
     solve_compiled,
 };
 pub use name::{SolverName, UnknownSolver};
+pub(crate) use partial::{Partial, gain};
