@@ -2,8 +2,10 @@
 
 mod batch;
 mod feature;
+mod problem;
 mod q_function;
 
 pub use batch::Batch;
 pub use feature::{FEATURE_VERSION, FEATURES, IN_TOUR, REWARD};
+pub use problem::{Problem, UnknownProblem};
 pub use q_function::{QError, QFunction};
