@@ -13,7 +13,7 @@ pub use batch::Batch;
 pub use encoder::Encoder;
 pub use encoding::{Edges, Encoding};
 pub use feature::{FEATURE_VERSION, FEATURES, Feature, IN_TOUR, REWARD};
-pub use problem::Problem;
+pub use problem::{Problem, UnknownProblem};
 pub use q_function::{QError, QFunction};
 
 #[cfg(test)]
