@@ -4,6 +4,7 @@ mod batch;
 mod encoder;
 mod encoding;
 mod feature;
+pub mod guided;
 mod knapsack;
 mod pressure;
 mod problem;
