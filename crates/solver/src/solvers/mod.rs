@@ -6,6 +6,7 @@
 mod auto;
 mod baseline;
 mod budget;
+mod dqn;
 mod entry;
 mod enumerate;
 pub mod exact;

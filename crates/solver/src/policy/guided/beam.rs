@@ -2,8 +2,8 @@
 
 use rustc_hash::FxHashSet;
 
+use super::Guide;
 use super::guide::EQUAL;
-use super::{Guide, Kept};
 use crate::framework::Episode;
 use crate::policy::QError;
 
@@ -18,24 +18,24 @@ struct Child {
 
 impl<'a> Guide<'a> {
     /// Keeps, stop by stop, the `width` children that promise most, of those with the same stops only the
-    /// one that promises most. Complete tours go to `kept`; the episodes that ended are returned.
+    /// one that promises most. The episodes that ended, `width` at most, are returned: each narrows the
+    /// beam by one.
     ///
     /// # Errors
     /// The Q-function cannot answer.
-    pub fn beam(&self, width: usize, kept: &mut Kept) -> Result<Vec<Episode<'a>>, QError> {
+    pub fn beam(&self, width: usize) -> Result<Vec<Episode<'a>>, QError> {
         let (mut beam, mut ended) = (vec![self.begin()], Vec::new());
         if beam[0].is_over() {
-            kept.finished(&beam[0]);
             return Ok(beam);
         }
         while !beam.is_empty() {
             let values = self.values(&beam.iter().collect::<Vec<_>>())?;
-            let mut next = Vec::with_capacity(width);
-            for child in chosen(&beam, &values, width) {
+            let room = width - ended.len();
+            let mut next = Vec::with_capacity(room);
+            for child in chosen(&beam, &values, room) {
                 let mut episode = beam[child.parent].clone();
                 episode.act(child.action);
                 if episode.is_over() {
-                    kept.finished(&episode);
                     ended.push(episode);
                 } else {
                     next.push(episode);

@@ -57,7 +57,11 @@ impl<'a> Guide<'a> {
             return Err(QError::WrongSize { expected, found: q.len() });
         }
         self.valued.set(self.valued.get() + encodings.len() as u64);
-        encodings.iter().zip(q.chunks_exact(batch.rows.max(1))).map(|(e, q)| by_action(e, q)).collect()
+        encodings
+            .iter()
+            .zip(q.chunks_exact(batch.rows.max(1)))
+            .map(|(e, q)| by_action(e, q))
+            .collect()
     }
 }
 

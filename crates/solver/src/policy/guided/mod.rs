@@ -4,6 +4,7 @@
 //! the same search with a [`Rule`] in place of a trained function.
 
 mod beam;
+mod construct;
 mod guide;
 mod kept;
 mod look_ahead;
@@ -11,6 +12,7 @@ mod reinsert;
 mod roll_out;
 mod rule;
 
+pub use construct::Effort;
 pub use guide::Guide;
 pub use kept::Kept;
 pub use rule::Rule;
