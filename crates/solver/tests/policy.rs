@@ -1,4 +1,5 @@
 //! Solving with a policy: what it may do to a plan, and that no way in which it fails costs the plan.
+#![allow(clippy::unwrap_used)]
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
