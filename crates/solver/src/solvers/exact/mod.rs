@@ -8,6 +8,7 @@
 
 mod bits;
 mod clusters;
+mod counting;
 mod fixing;
 mod incumbent;
 mod layers;
