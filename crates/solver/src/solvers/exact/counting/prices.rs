@@ -17,8 +17,10 @@ pub struct Prices {
     pub bound_s: f64,
 }
 
-/// Length of the first step, and what becomes of it when the bound has stalled.
+/// Length of the first step, of the first one from prices that have climbed before, and what becomes of it
+/// when the bound has stalled.
 const FIRST_STEP: f64 = 1.0;
+const NEXT_STEP: f64 = 0.15;
 const SHORTER: f64 = 0.7;
 const PATIENCE: u32 = 3;
 /// Share of the direction before that is kept.
@@ -76,9 +78,10 @@ impl Prices {
         let n = table.n;
         let mut tails = Tails::new(table);
         let mut at = self.clone();
+        let mut length = if self.bound_s.is_finite() { NEXT_STEP } else { FIRST_STEP };
+        let mut stalled = 0;
         self.bound_s = f64::NEG_INFINITY;
         let mut direction = vec![0.0; n + 1];
-        let (mut length, mut stalled) = (FIRST_STEP, 0);
         for _step in 0..steps {
             tails.evaluate(&at.prizes());
             let (value, path) = tails.path(firsts_s);

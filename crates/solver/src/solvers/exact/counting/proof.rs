@@ -20,9 +20,9 @@ pub struct Look {
 /// The first look finds tours, and proves what prices prove alone; each next one takes many times longer.
 const LOOKS: [Look; 4] = [
     Look { intervals: 448, steps: 40, width: 64 },
-    Look { intervals: 1_792, steps: 20, width: 2_000 },
-    Look { intervals: 3_584, steps: 30, width: 100_000 },
-    Look { intervals: 7_168, steps: 30, width: usize::MAX },
+    Look { intervals: 1_792, steps: 15, width: 2_000 },
+    Look { intervals: 3_584, steps: 12, width: 100_000 },
+    Look { intervals: 7_168, steps: 12, width: usize::MAX },
 ];
 /// Looks that are a share of a planner's time.
 const SHARE: usize = 2;

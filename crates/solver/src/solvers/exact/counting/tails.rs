@@ -1,6 +1,6 @@
 //! The least time that going on takes, less the prizes of the stops that are made.
 
-use super::Timetable;
+use super::timetable::{Hop, Timetable};
 
 /// Values of going on from every interval and candidate, for given prizes.
 #[derive(Debug)]
@@ -30,8 +30,11 @@ impl<'t> Tails<'t> {
                 let mut fell = false;
                 for from in 0..n {
                     let before = self.values[b * n + from];
-                    let ways = (0..n).map(|to| self.through(b, from, to));
-                    let best = ways.fold(before, |best, way| if way < best { way } else { best });
+                    let mut best = before;
+                    for (to, (&hop, prize)) in table.hops(b, from).iter().zip(prizes).enumerate() {
+                        let way = f64::from(hop.least_s) - prize + self.ahead(hop, to);
+                        best = if way < best { way } else { best };
+                    }
                     self.values[b * n + from] = best;
                     fell |= best < before;
                 }
@@ -42,15 +45,24 @@ impl<'t> Tails<'t> {
         }
     }
 
+    /// The least value at the end of a hop.
+    #[inline]
+    fn ahead(&self, hop: Hop, to: usize) -> f64 {
+        let mut place = usize::from(hop.first) * self.table.n + to;
+        let mut least = self.values[place];
+        for _next in hop.first..hop.last {
+            place += self.table.n;
+            let value = self.values[place];
+            least = if value < least { value } else { least };
+        }
+        least
+    }
+
     /// Going on from an interval over a certain next stop.
     #[inline]
     pub fn through(&self, b: usize, from: usize, to: usize) -> f64 {
         let hop = self.table.hops(b, from)[to];
-        let mut ahead = self.values[usize::from(hop.first) * self.table.n + to];
-        for next in hop.first + 1..=hop.last {
-            ahead = ahead.min(self.values[usize::from(next) * self.table.n + to]);
-        }
-        f64::from(hop.least_s) - self.prizes[to] + ahead
+        f64::from(hop.least_s) - self.prizes[to] + self.ahead(hop, to)
     }
 
     /// Going on from a candidate at which one arrives at a certain moment.
@@ -74,9 +86,9 @@ impl<'t> Tails<'t> {
     /// The least value of a path that is at each candidate first at the given moments, and the stops of one.
     pub fn path(&self, firsts_s: &[f64]) -> (f64, Vec<u32>) {
         let n = self.table.n;
-        let values = (0..n).filter(|&to| firsts_s[to].is_finite()).map(|to| {
-            (firsts_s[to] - self.prizes[to] + self.after(firsts_s[to], to), to)
-        });
+        let values = (0..n)
+            .filter(|&to| firsts_s[to].is_finite())
+            .map(|to| (firsts_s[to] - self.prizes[to] + self.after(firsts_s[to], to), to));
         let Some((value, mut at)) = values.min_by(|a, b| a.0.total_cmp(&b.0)) else {
             return (f64::INFINITY, Vec::new());
         };
