@@ -24,10 +24,11 @@ const LOOKS: [Look; 4] = [
     Look { intervals: 3_584, steps: 12, width: 100_000 },
     Look { intervals: 7_168, steps: 12, width: usize::MAX },
 ];
-/// Looks that are a share of a planner's time.
-const SHARE: usize = 2;
 /// Hops that a timetable may have: 8 bytes each.
 const MOST_HOPS: usize = 16_000_000;
+/// Looks that are a share of a planner's time, and the hops of a timetable that is.
+const SHARE: usize = 2;
+const SHARE_HOPS: usize = 2_000_000;
 /// Memory for labels.
 const MOST_BYTES: usize = 600 << 20;
 
@@ -42,7 +43,6 @@ pub fn applies(model: &Model<'_>, incumbent: &Incumbent) -> bool {
         && !model.energy_counts
         && instance.timespan_s.is_finite()
         && (1..=128).contains(&model.len())
-        && model.len() * model.len() * LOOKS[0].intervals <= MOST_HOPS
         && incumbent.order.is_some()
 }
 
@@ -53,7 +53,12 @@ pub fn count(
     incumbent: &mut Incumbent,
     budget: &mut Budget<'_>,
 ) -> Proof {
-    let looks = if effort == Effort::Whole { &LOOKS[..] } else { &LOOKS[..SHARE] };
+    let (most, most_hops) = match effort {
+        Effort::Whole => (LOOKS.len(), MOST_HOPS),
+        Effort::Share => (SHARE, SHARE_HOPS),
+    };
+    let fits = |look: &&Look| model.len() * model.len() * look.intervals <= most_hops;
+    let looks = &LOOKS[..LOOKS[..most].iter().take_while(fits).count()];
     if model.len() <= 64 {
         count_with::<1>(model, looks, incumbent, budget)
     } else {
@@ -130,9 +135,9 @@ impl<'c> Counter<'c> {
             return Outcome::None;
         }
         let mut prices = Prices::begin(instance, &self.charges_s, stops);
-        for (look, &Look { steps, width, .. }) in self.looks.iter().enumerate() {
-            if !self.has_table(look) {
-                break;
+        for (look, &Look { intervals, steps, width }) in self.looks.iter().enumerate() {
+            if look == self.tables.len() {
+                self.tables.push(Timetable::new(instance, intervals));
             }
             let table = &self.tables[look];
             prices.climb(table, &self.firsts_s, limit_s, steps, budget);
@@ -162,17 +167,5 @@ impl<'c> Counter<'c> {
         let mut charges_s = self.charges_s.clone();
         charges_s.sort_by(f64::total_cmp);
         charges_s[..stops].iter().sum::<f64>() * (1.0 - 1e-12)
-    }
-
-    /// Makes the timetable of a look, after those before; whether it is not too large.
-    fn has_table(&mut self, look: usize) -> bool {
-        let intervals = self.looks[look].intervals;
-        if self.model.len() * self.model.len() * intervals > MOST_HOPS {
-            return false;
-        }
-        if look == self.tables.len() {
-            self.tables.push(Timetable::new(&self.model.wide, intervals));
-        }
-        true
     }
 }
