@@ -3,9 +3,9 @@
 use std::collections::BTreeMap;
 
 use voltour_solver::plan::Status;
-use voltour_solver::scenario::{Document, Scenario};
+use voltour_solver::scenario::{Document, Objective, Scenario};
 
-use crate::draw::{awkward, rng};
+use crate::draw::{Ground, awkward, on, rng};
 use crate::edge::sharpen;
 use crate::journey::Journey;
 use crate::mixed;
@@ -62,6 +62,36 @@ fn every_claim_about_mixed_scenarios_is_true() {
     let mut ends = BTreeMap::new();
     for seed in 0..trials(1_000) {
         compare(&mixed::draw(1 + seed as usize % 6, seed), &mut ends);
+    }
+    println!("{ends:?}");
+}
+
+/// Where time is all that runs out, how many can be served is counted by a search of its own.
+fn about_time(seed: u64) -> Document {
+    let ground = if seed.is_multiple_of(4) { Ground::Plane } else { Ground::Moving };
+    let mut document = on(ground, 1 + size(seed).min(5), 2_000_000 + seed);
+    document.objective = Objective::MaxCount;
+    document.coverage = None;
+    document.sensors.iter_mut().for_each(|sensor| sensor.range_m = None);
+    document.requests.iter_mut().for_each(|request| request.required = None);
+    document.charger.capacity_j = None;
+    document.charger.timespan_s = Some(15.0 + (seed * 37 % 240) as f64);
+    document
+}
+
+#[test]
+fn every_claim_about_counts_is_true() {
+    let mut ends = BTreeMap::new();
+    for seed in 0..trials(1_000) {
+        let mut document = about_time(seed);
+        if seed % 3 == 1 {
+            sharpen(&mut document, &mut rng(seed));
+            // Energy is to stay plenty.
+            document.charger.capacity_j = None;
+        }
+        if !empty_trip_hangs_on_the_tolerance(&document) {
+            compare(&document, &mut ends);
+        }
     }
     println!("{ends:?}");
 }

@@ -5,9 +5,13 @@
 //! the scarcest resource) with Lagrangian prizes for what must be served; they become tighter round by
 //! round, as paths remember more neighbours, count more demands and keep finer times. Under these bounds a
 //! best-first search over labels, with dominance, either ends, which is the proof, or gives a bound.
+//!
+//! How many can be served where time is all that runs out is asked in another way first (`counting`):
+//! time is then the cost, and a tour of one stop more is what must not exist.
 
 mod bits;
 mod clusters;
+mod counting;
 mod fixing;
 mod incumbent;
 mod layers;

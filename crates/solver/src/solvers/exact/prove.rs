@@ -2,6 +2,7 @@
 
 use rand_pcg::Pcg64Mcg;
 
+use super::counting;
 use super::incumbent::Incumbent;
 use super::layers::{INTERVALS, MOST_ARRIVALS, layers, resource};
 use super::memory::Memory;
@@ -68,29 +69,37 @@ pub fn prove(
     rng: &mut Pcg64Mcg,
     budget: &mut Budget<'_>,
 ) -> Proof {
+    let mut known = f64::NEG_INFINITY;
+    if counting::applies(model, incumbent) {
+        let counted = counting::count(model, effort, incumbent, budget);
+        if counted.closed || budget.is_spent() {
+            return counted;
+        }
+        known = counted.bound;
+    }
     let words = model.len().max(model.demands.len()).div_ceil(64);
     if words > 8 || model.len() * model.len() * INTERVALS > MOST_ARRIVALS {
-        return quickly(model, incumbent);
+        return quickly(model, incumbent, known);
     }
     let network = Network::new(model);
     let arrivals = network.arcs.len() * INTERVALS;
     let share = SHARES.iter().find(|(_, most)| arrivals <= *most).map_or(0, |share| share.0);
     let rounds = if effort == Effort::Whole { ROUNDS } else { share };
     if rounds == 0 {
-        return quickly(model, incumbent);
+        return quickly(model, incumbent, known);
     }
     let prover = Prover::new(model, &network, incumbent, rng, budget);
     match words {
-        0..=1 => prover.prove::<1>(rounds),
-        2 => prover.prove::<2>(rounds),
-        3..=4 => prover.prove::<4>(rounds),
-        _ => prover.prove::<8>(rounds),
+        0..=1 => prover.prove::<1>(rounds, known),
+        2 => prover.prove::<2>(rounds, known),
+        3..=4 => prover.prove::<4>(rounds, known),
+        _ => prover.prove::<8>(rounds, known),
     }
 }
 
 /// What is known without relaxed paths.
-fn quickly(model: &Model<'_>, incumbent: &Incumbent) -> Proof {
-    let bound = quick(model, incumbent.cost);
+fn quickly(model: &Model<'_>, incumbent: &Incumbent, known: f64) -> Proof {
+    let bound = quick(model, incumbent.cost).max(known);
     let closed = bound == f64::INFINITY || bound >= incumbent.cutoff() && incumbent.order.is_some();
     let bound = bound.min(incumbent.cost).min(incumbent.beyond);
     Proof { order: incumbent.order.clone(), bound, closed }
@@ -120,10 +129,11 @@ impl<'p, 'a, 'b> Prover<'p, 'a, 'b> {
         Self { model, paths, incumbent, rng, budget }
     }
 
-    fn prove<const W: usize>(mut self, rounds: u32) -> Proof {
-        let mut bound = f64::NEG_INFINITY;
+    /// Proves on from a bound that is known.
+    fn prove<const W: usize>(mut self, rounds: u32, known: f64) -> Proof {
+        let mut bound = known;
         if self.model.len() > SMALL {
-            bound = quick(self.model, self.incumbent.cost);
+            bound = quick(self.model, self.incumbent.cost).max(known);
             if bound >= self.incumbent.cutoff() {
                 return self.closed();
             }

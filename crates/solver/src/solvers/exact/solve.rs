@@ -15,6 +15,8 @@ const FIRST: u64 = 60;
 const BEST_EFFORT: u64 = 2_000;
 /// Iterations of the baseline that make a proven tour shorter, or earlier, without changing its objective.
 const POLISH: u64 = 400;
+/// The same where sensors move and an iteration takes long.
+const MOVING_POLISH: u64 = 60;
 
 /// The best tour with its proof, or what is known when the budget ends. `start` is a legal tour to begin
 /// with; it may be empty.
@@ -52,7 +54,8 @@ pub fn solve(
             (Some(best), _) => {
                 order = best;
                 if proof.closed && instance.scenario.objective != Objective::MinDistance {
-                    order = polished(instance, &order, POLISH, rng, budget);
+                    let most = if instance.moving { MOVING_POLISH } else { POLISH };
+                    order = polished(instance, &order, most, rng, budget);
                 }
                 Claim::Bound(objective(instance, proof.bound))
             }
