@@ -47,6 +47,12 @@ impl<const W: usize> Bits<W> {
         Self(std::array::from_fn(|w| self.0[w] & !other.0[w]))
     }
 
+    /// The intersection.
+    #[inline]
+    pub fn both(&self, other: &Self) -> Self {
+        Self(std::array::from_fn(|w| self.0[w] & other.0[w]))
+    }
+
     /// Size of the intersection.
     #[inline]
     pub fn common(&self, other: &Self) -> u32 {

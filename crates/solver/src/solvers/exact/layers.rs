@@ -7,6 +7,9 @@ use super::relaxation::Resource;
 
 /// Layers of time or energy at first.
 pub const INTERVALS: usize = 96;
+const INTERVALS_OF_FEW: usize = 64;
+/// Candidates at rest up to which a shortest tour is proven with fewer layers at first.
+const FEW: usize = 64;
 /// Arcs over all layers for which paths are laid out at all.
 pub const MOST_ARRIVALS: usize = 60_000_000;
 
@@ -19,6 +22,11 @@ pub fn resource(model: &Model<'_>) -> Resource {
     } else {
         Resource::Stops
     }
+}
+
+/// Whether metres are the cost, and so few candidates are at rest that one round may be the proof.
+pub fn few(model: &Model<'_>) -> bool {
+    model.length_counts && !model.wide.moving && model.len() <= FEW
 }
 
 /// Number of intervals and where they end.
@@ -54,14 +62,15 @@ pub fn layers(
                 horizon = due.fold(1.0, f64::max);
             }
             let horizon = horizon.max(1e-9);
+            let intervals = if few(model) { INTERVALS_OF_FEW } else { INTERVALS };
             // Where every arc leads into a later interval, no layer needs a second look.
             let fine = (horizon / network.least_step(model)).ceil();
-            if fine <= 3.0 * INTERVALS as f64
+            if fine <= 3.0 * intervals as f64
                 && fine * network.arcs.len() as f64 <= MOST_ARRIVALS as f64
             {
-                return ((fine as usize + 1).max(INTERVALS), horizon);
+                return ((fine as usize + 1).max(intervals), horizon);
             }
-            (INTERVALS, horizon)
+            (intervals, horizon)
         }
     }
 }

@@ -2,29 +2,33 @@
 
 use super::Model;
 use super::network::{leg_m, stand};
-use super::relaxation::{CLOSED, Graph, Relaxation, Resource};
+use super::relaxation::{Graph, Relaxation, Resource, Way};
 use crate::tour::Run;
 
 impl Relaxation<'_> {
     /// Halves the intervals. What is closed stays so: it was for everything later in its interval too.
     pub fn split(&mut self, model: &Model<'_>) {
-        let (n, arcs) = (model.len(), self.network.arcs.len());
+        let n = model.len();
         self.intervals *= 2;
         self.width /= 2.0;
         self.ends = vec![f64::INFINITY; self.intervals * n];
         let fresh = self.lay_out(model);
         for graph in [&mut self.graph, &mut self.other] {
-            let before = std::mem::replace(graph, fresh.clone());
-            for b in 0..self.intervals {
-                for a in 0..arcs {
-                    if before.arrives[b / 2 * arcs + a] == CLOSED {
-                        graph.arrives[b * arcs + a] = CLOSED;
-                    }
-                }
-                let layer = n * self.tally.states;
-                for place in 0..layer {
-                    graph.live[b * layer + place] &= before.live[b / 2 * layer + place];
-                }
+            let before = std::mem::take(graph);
+            let layer = n * self.tally.states;
+            let place = |at: usize, size: usize| at / size / 2 * size + at % size;
+            graph.live = fresh.live.clone();
+            for (at, live) in graph.live.iter_mut().enumerate() {
+                *live &= before.live[place(at, layer)];
+            }
+            graph.first.push(0);
+            for at in 0..self.intervals * n {
+                let open = before.leaving(place(at, n));
+                let ways = fresh.leaving(at).iter();
+                graph.ways.extend(
+                    ways.filter(|way| open.binary_search_by_key(&way.arc, |way| way.arc).is_ok()),
+                );
+                graph.first.push(graph.ways.len());
             }
         }
         self.value = vec![f64::INFINITY; self.intervals * self.offset[n]];
@@ -33,10 +37,11 @@ impl Relaxation<'_> {
     /// Every arc and state that the limits allow; where a tour may begin and end.
     pub(super) fn lay_out(&mut self, model: &Model<'_>) -> Graph {
         let instance = &model.wide;
-        let (n, arcs) = (model.len(), self.network.arcs.len());
+        let n = model.len();
         let tallies = self.tally.states;
         let mut graph = Graph {
-            arrives: vec![CLOSED; self.intervals * arcs],
+            first: vec![0],
+            ways: Vec::new(),
             live: vec![false; self.intervals * n * tallies],
         };
         let start = instance.departure();
@@ -57,36 +62,49 @@ impl Relaxation<'_> {
         });
         self.starts = firsts.collect();
         for b in 0..self.intervals {
-            let begin = b as f64 * self.width;
             for i in 0..n {
-                let first = self.interval(self.least(i));
-                if !self.network.earliest_s[i].is_finite() || b < first {
-                    continue;
+                if let Some((run, spent_j)) = self.stay(model, b, i) {
+                    graph.live[(b * n + i) * tallies..(b * n + i + 1) * tallies].fill(true);
+                    self.ends[b * n + i] = self.end(model, &run, spent_j);
+                    for (arc, a) in self.network.leaving(i).enumerate() {
+                        if let Some(next) = self.arrival(model, i, a, b, &run, spent_j) {
+                            graph.ways.push(Way { arc: arc as u16, next });
+                        }
+                    }
                 }
-                let mut run = self.at(model, i, begin);
-                if run.arrive_s > instance.candidates[i].due_s {
-                    continue;
-                }
-                run.distance_m = 0.0;
-                graph.live[(b * n + i) * tallies..(b * n + i + 1) * tallies].fill(true);
-                let spent_j = if self.resource == Resource::Energy {
-                    begin.max(self.network.energy_j[i])
-                } else {
-                    self.network.energy_j[i]
-                };
-                let home = instance.finish(&run);
-                let leg_j =
-                    instance.scenario.charger.travel_jpm * leg_m(instance, i, instance.end());
-                if home.arrive_s <= instance.timespan_s && spent_j + leg_j <= instance.capacity_j {
-                    let length_m = leg_m(instance, i, instance.end());
-                    self.ends[b * n + i] = if model.length_counts { length_m } else { 0.0 };
-                }
-                for arc in self.network.leaving(i) {
-                    graph.arrives[b * arcs + arc] = self.arrival(model, i, arc, b, &run, spent_j);
-                }
+                graph.first.push(graph.ways.len());
             }
         }
         graph
+    }
+
+    /// The charger at a candidate as early as the interval lets it be, and the energy spent by then; none if
+    /// it cannot be there.
+    fn stay(&self, model: &Model<'_>, b: usize, i: usize) -> Option<(Run, f64)> {
+        let begin = b as f64 * self.width;
+        if !self.network.earliest_s[i].is_finite() || b < self.interval(self.least(i)) {
+            return None;
+        }
+        let mut run = self.at(model, i, begin);
+        run.distance_m = 0.0;
+        let spent_j = if self.resource == Resource::Energy {
+            begin.max(self.network.energy_j[i])
+        } else {
+            self.network.energy_j[i]
+        };
+        (run.arrive_s <= model.wide.candidates[i].due_s).then_some((run, spent_j))
+    }
+
+    /// What ending the tour costs; infinite where it cannot.
+    fn end(&self, model: &Model<'_>, run: &Run, spent_j: f64) -> f64 {
+        let instance = &model.wide;
+        let home = instance.finish(run);
+        let length_m = leg_m(instance, run.node as usize, instance.end());
+        let leg_j = instance.scenario.charger.travel_jpm * length_m;
+        if home.arrive_s > instance.timespan_s || spent_j + leg_j > instance.capacity_j {
+            return f64::INFINITY;
+        }
+        if model.length_counts { length_m } else { 0.0 }
     }
 
     /// The resource that being at a candidate has taken at least.
@@ -114,23 +132,22 @@ impl Relaxation<'_> {
         b: usize,
         run: &Run,
         spent_j: f64,
-    ) -> u16 {
+    ) -> Option<u16> {
         let instance = &model.wide;
         let to = self.network.arcs[arc].to;
         let next = instance.step(run, to);
         if !instance.in_time(&next) || next.depart_s > instance.timespan_s {
-            return CLOSED;
+            return None;
         }
         let leg_j = instance.scenario.charger.travel_jpm * leg_m(instance, from, to as usize);
         let energy_j = spent_j + leg_j + self.network.charge_j[to as usize];
         if energy_j > instance.capacity_j {
-            return CLOSED;
+            return None;
         }
         match self.resource {
-            Resource::Time => self.interval(next.arrive_s).max(b) as u16,
-            Resource::Energy => self.interval(energy_j).max(b) as u16,
-            Resource::Stops if b + 1 < self.intervals => b as u16 + 1,
-            Resource::Stops => CLOSED,
+            Resource::Time => Some(self.interval(next.arrive_s).max(b) as u16),
+            Resource::Energy => Some(self.interval(energy_j).max(b) as u16),
+            Resource::Stops => (b + 1 < self.intervals).then_some(b as u16 + 1),
         }
     }
 }

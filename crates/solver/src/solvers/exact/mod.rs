@@ -32,6 +32,7 @@ mod search;
 mod solve;
 mod spanning;
 mod tally;
+mod timetable;
 mod verdict;
 
 use incumbent::Incumbent;

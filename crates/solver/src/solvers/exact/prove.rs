@@ -4,7 +4,7 @@ use rand_pcg::Pcg64Mcg;
 
 use super::counting;
 use super::incumbent::Incumbent;
-use super::layers::{INTERVALS, MOST_ARRIVALS, layers, resource};
+use super::layers::{INTERVALS, MOST_ARRIVALS, few, layers, resource};
 use super::memory::Memory;
 use super::model::{Aim, Model};
 use super::multipliers::{Ascent, Multipliers};
@@ -41,6 +41,7 @@ const ROUNDS: u32 = 20;
 const SHARES: [(u32, usize); 3] = [(4, 200_000), (2, 1_000_000), (1, 3_000_000)];
 /// Steps of the ascent in the first round and in later ones.
 const FIRST_STEPS: u32 = 30;
+const FIRST_STEPS_OF_FEW: u32 = 20;
 const STEPS: u32 = 15;
 /// Labels of the first search; each next one may make three times as many, within what memory allows.
 const FIRST_LABELS: usize = 16_000;
@@ -52,8 +53,10 @@ const MOST_ITERATIONS: u64 = 20_000;
 /// Layers of time at most, where metres are the cost and where gains are.
 const MOST_INTERVALS: usize = 200;
 const MOST_INTERVALS_OF_GAIN: usize = 800;
-/// Neighbours that every candidate remembers from the beginning.
+/// Neighbours that every candidate remembers from the beginning; where candidates are few, paths that
+/// remember more cost less than a second round.
 const FIRST_MEMORY: usize = 2;
+const FIRST_MEMORY_OF_FEW: usize = 4;
 /// Combinations of counts that the states of paths may take.
 const MOST_TALLY: usize = 128;
 /// Beyond this many candidates a bound without paths is taken first.
@@ -124,7 +127,8 @@ impl<'p, 'a, 'b> Prover<'p, 'a, 'b> {
         let resource = resource(model);
         let (intervals, horizon) = layers(model, network, incumbent, resource);
         let near = |a: usize, b: usize| apart_m(model, a, b);
-        let memory = Memory::nearest(network, near, FIRST_MEMORY);
+        let size = if few(model) { FIRST_MEMORY_OF_FEW } else { FIRST_MEMORY };
+        let memory = Memory::nearest(network, near, size);
         let paths = Relaxation::new(model, network, resource, intervals, horizon, memory);
         Self { model, paths, incumbent, rng, budget }
     }
@@ -166,7 +170,11 @@ impl<'p, 'a, 'b> Prover<'p, 'a, 'b> {
         ascent.best.bound = f64::NEG_INFINITY;
         let model = self.model;
         let target = target(model, self.incumbent, ascent);
-        let steps = if round == 0 { FIRST_STEPS } else { STEPS };
+        let steps = match round {
+            0 if few(model) => FIRST_STEPS_OF_FEW,
+            0 => FIRST_STEPS,
+            _ => STEPS,
+        };
         for step in 0..steps {
             if !self.budget.spend() {
                 break;
@@ -183,10 +191,8 @@ impl<'p, 'a, 'b> Prover<'p, 'a, 'b> {
                 break;
             }
         }
-        for reading in [Reading::Paths, Reading::Tours] {
-            self.paths.read(reading);
-            self.fix(&ascent.best);
-        }
+        self.paths.read(Reading::Tours);
+        self.fix(&ascent.best);
         self.search::<W>(ascent, labels)
     }
 
@@ -246,7 +252,7 @@ impl<'p, 'a, 'b> Prover<'p, 'a, 'b> {
     /// the demand that paths keep to the least is counted.
     fn refine(&mut self, ascent: &mut Ascent, most: usize) {
         self.paths.read(Reading::Paths);
-        self.paths.evaluate(&ascent.best.prizes);
+        self.fix(&ascent.best);
         let path = self.paths.path(&ascent.best.prizes);
         let mut memory = self.paths.memory().clone();
         learn(&mut memory, &path, most);

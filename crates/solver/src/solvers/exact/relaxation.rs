@@ -33,14 +33,45 @@ pub enum Reading {
 /// The arcs and states that an improving tour may use.
 #[derive(Clone, Debug, Default)]
 pub struct Graph {
-    /// By interval and arc, the interval at which the arc arrives.
-    pub arrives: Vec<u16>,
+    /// By interval and candidate, where its ways begin in `ways`; last, their number.
+    pub first: Vec<usize>,
+    /// The ways that are open, by interval and candidate and in the order of the arcs.
+    pub ways: Vec<Way>,
     /// By interval, candidate and state of the tally, whether it may be there.
     pub live: Vec<bool>,
 }
 
-/// An arc that cannot be used from an interval.
-pub(super) const CLOSED: u16 = u16::MAX;
+impl Graph {
+    /// The ways that leave a place: an interval and candidate, counted through.
+    pub fn leaving(&self, place: usize) -> &[Way] {
+        &self.ways[self.first[place]..self.first[place + 1]]
+    }
+}
+
+/// An arc from an interval.
+#[derive(Clone, Copy, Debug)]
+pub struct Way {
+    /// Which of the arcs that leave its candidate.
+    pub arc: u16,
+    /// The interval at which it arrives.
+    pub next: u16,
+}
+
+/// What following an arc means for the states at its ends.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Turn {
+    /// What it costs, less the prize at its head.
+    pub cost: f64,
+    pub to: u32,
+    /// Where the states of its head begin in a layer.
+    pub states: u32,
+    /// Where its masks begin in `next_mask`.
+    pub masks: u32,
+    /// The bit under which its tail remembers its head.
+    pub back: u16,
+    /// How many neighbours its head remembers.
+    pub near: u16,
+}
 
 /// The relaxed paths of an instance.
 #[derive(Debug)]
@@ -68,10 +99,8 @@ pub struct Relaxation<'n> {
     pub(super) empty: f64,
     /// By arc and mask, the mask at its end.
     pub(super) next_mask: Vec<u16>,
-    /// By arc, where its masks begin.
-    pub(super) masks: Vec<usize>,
-    /// By arc, the bit under which its tail remembers its head.
-    pub(super) back: Vec<u32>,
+    /// By arc.
+    pub(super) turns: Vec<Turn>,
     /// By interval and state, the least cost of going on.
     pub(super) value: Vec<f64>,
     /// Values of one candidate while they are computed.
@@ -108,8 +137,7 @@ impl<'n> Relaxation<'n> {
             starts: Vec::new(),
             empty: f64::INFINITY,
             next_mask: Vec::new(),
-            masks: Vec::new(),
-            back: Vec::new(),
+            turns: Vec::new(),
             value: Vec::new(),
             scratch: Vec::new(),
         };
@@ -166,16 +194,20 @@ impl<'n> Relaxation<'n> {
             self.offset[i + 1] = self.offset[i] + (tally.states << memory.of[i].len());
         }
         let network = self.network;
-        self.masks.clear();
         self.next_mask.clear();
-        self.back.clear();
+        self.turns.clear();
         for from in 0..n {
             let near = &memory.of[from];
             for arc in &network.arcs[network.leaving(from)] {
-                self.masks.push(self.next_mask.len());
-                let bit = near.binary_search(&arc.to).map_or(0, |bit| 1 << bit);
-                self.back.push(bit);
                 let ahead = &memory.of[arc.to as usize];
+                self.turns.push(Turn {
+                    cost: 0.0,
+                    to: arc.to,
+                    states: self.offset[arc.to as usize] as u32,
+                    masks: self.next_mask.len() as u32,
+                    back: near.binary_search(&arc.to).map_or(0, |bit| 1 << bit),
+                    near: ahead.len() as u16,
+                });
                 let own = ahead.binary_search(&(from as u32)).map_or(0, |bit| 1_u16 << bit);
                 let kept: Vec<u16> = near
                     .iter()
@@ -190,6 +222,9 @@ impl<'n> Relaxation<'n> {
         self.value = vec![f64::INFINITY; self.intervals * self.offset[n]];
         self.memory = memory;
         self.tally = tally;
+        for graph in [&mut self.graph, &mut self.other] {
+            self.tally.rule_out(&mut graph.live, self.intervals);
+        }
     }
 
     /// The interval that an amount of the resource lies in.
@@ -202,13 +237,16 @@ impl<'n> Relaxation<'n> {
     /// Values of all states for these prizes; the least cost of a path from start to end.
     pub fn evaluate(&mut self, prizes: &[f64]) -> f64 {
         let (n, total) = (prizes.len(), self.offset[prizes.len()]);
+        for (turn, arc) in self.turns.iter_mut().zip(&self.network.arcs) {
+            turn.cost = arc.cost - prizes[arc.to as usize];
+        }
         for b in (0..self.intervals).rev() {
             self.value[b * total..(b + 1) * total].fill(f64::INFINITY);
             // Paths that stay within an interval are followed until none of them gets cheaper.
             for _pass in 0..n.max(1) {
                 let (mut fell, mut within) = (false, false);
                 for i in 0..n {
-                    let (own_fell, own_within) = self.pull(prizes, b, i);
+                    let (own_fell, own_within) = self.pull(b, i);
                     fell |= own_fell;
                     within |= own_within;
                 }
@@ -226,14 +264,21 @@ impl<'n> Relaxation<'n> {
         &self.graph.live[(b * n + i) * self.tally.states..(b * n + i + 1) * self.tally.states]
     }
 
+    /// The ways that leave a candidate in an interval, with what they mean.
+    pub(super) fn ways(&self, b: usize, i: usize) -> impl Iterator<Item = (usize, &Turn)> {
+        let n = self.offset.len() - 1;
+        let turns = &self.turns[self.network.leaving(i)];
+        let ways = self.graph.leaving(b * n + i).iter();
+        ways.map(move |way| (way.next as usize, &turns[way.arc as usize]))
+    }
+
     /// Values at a candidate from those ahead of it; whether one fell, and whether it looks at others of its
     /// own interval.
-    fn pull(&mut self, prizes: &[f64], b: usize, i: usize) -> (bool, bool) {
+    fn pull(&mut self, b: usize, i: usize) -> (bool, bool) {
         if self.live(b, i).iter().all(|live| !live) {
             return (false, false);
         }
-        let network = self.network;
-        let (n, arcs, total) = (prizes.len(), network.arcs.len(), self.offset[prizes.len()]);
+        let (n, total) = (self.offset.len() - 1, self.offset[self.offset.len() - 1]);
         let masks = 1 << self.memory.of[i].len();
         let own = b * total + self.offset[i];
         let mut best = std::mem::take(&mut self.scratch);
@@ -242,28 +287,21 @@ impl<'n> Relaxation<'n> {
         best[masks * self.tally.met()..].fill(self.ends[b * n + i]);
         let live = self.live(b, i);
         let mut within = false;
-        for a in network.leaving(i) {
-            let next = self.graph.arrives[b * arcs + a];
-            if next == CLOSED {
-                continue;
-            }
-            within |= next as usize == b;
-            let to = network.arcs[a].to;
-            let states = next as usize * total + self.offset[to as usize];
-            let cost = network.arcs[a].cost - prizes[to as usize];
-            let next_masks = &self.next_mask[self.masks[a]..self.masks[a] + masks];
-            let masks_ahead = 1 << self.memory.of[to as usize].len();
-            let back = self.back[a] as usize;
+        for (next, turn) in self.ways(b, i) {
+            within |= next == b;
+            let states = next * total + turn.states as usize;
+            let next_masks = &self.next_mask[turn.masks as usize..turn.masks as usize + masks];
             for (state, best) in best.chunks_exact_mut(masks).enumerate() {
                 if !live[state] {
                     continue;
                 }
-                let states = states + self.tally.after(state, to) * masks_ahead;
-                let ahead = &self.value[states..states + masks_ahead];
+                let states = states + (self.tally.after(state, turn.to) << turn.near);
+                let ahead = &self.value[states..states + (1 << turn.near)];
+                // Without branches on the values, which follow no pattern.
                 for (mask, (best, &next_mask)) in best.iter_mut().zip(next_masks).enumerate() {
-                    let value = cost + ahead[next_mask as usize];
-                    if value < *best && back & mask == 0 {
-                        *best = value;
+                    if turn.back as usize & mask == 0 {
+                        let value = turn.cost + ahead[next_mask as usize];
+                        *best = if value < *best { value } else { *best };
                     }
                 }
             }
@@ -302,8 +340,7 @@ impl<'n> Relaxation<'n> {
 
     /// The candidates of a cheapest path of the last evaluation, in order.
     pub fn path(&self, prizes: &[f64]) -> Vec<u32> {
-        let network = self.network;
-        let (n, arcs) = (prizes.len(), network.arcs.len());
+        let n = prizes.len();
         let mut path = Vec::new();
         let Some((value, mut b, mut at)) = self.first_arc(prizes) else { return path };
         if value >= self.empty() || value == f64::INFINITY {
@@ -315,18 +352,15 @@ impl<'n> Relaxation<'n> {
             let i = at as usize;
             let end = if tally == self.tally.met() { self.ends[b * n + i] } else { f64::INFINITY };
             let mut best = (end, None);
-            for a in network.leaving(i) {
-                let next = self.graph.arrives[b * arcs + a];
-                if next == CLOSED || self.back[a] as usize & mask != 0 {
+            for (next, turn) in self.ways(b, i) {
+                if turn.back as usize & mask != 0 {
                     continue;
                 }
-                let to = network.arcs[a].to;
-                let ahead = self.next_mask[self.masks[a] + mask] as usize;
-                let counted = self.tally.after(tally, to);
-                let value = network.arcs[a].cost - prizes[to as usize]
-                    + self.value[self.states(next as usize, to, counted) + ahead];
+                let ahead = self.next_mask[turn.masks as usize + mask] as usize;
+                let counted = self.tally.after(tally, turn.to);
+                let value = turn.cost + self.value[self.states(next, turn.to, counted) + ahead];
                 if value < best.0 {
-                    best = (value, Some((next as usize, to, ahead, counted)));
+                    best = (value, Some((next, turn.to, ahead, counted)));
                 }
             }
             match best.1 {

@@ -10,6 +10,7 @@ use std::collections::{BinaryHeap, HashMap};
 use super::bits::Bits;
 use super::multipliers::Multipliers;
 use super::relaxation::{Relaxation, Resource};
+use super::timetable::Timetable;
 use super::{Incumbent, Model};
 use crate::solvers::Budget;
 use crate::tour::Run;
@@ -80,6 +81,9 @@ pub struct Search<'s, 'a, const W: usize> {
     incumbent: &'s mut Incumbent,
     /// The runs that may follow a label, while it is expanded.
     ahead: Vec<Run>,
+    /// By open demand of that label, its members and how many more of them it needs.
+    open: Vec<(Bits<W>, u32)>,
+    timetable: Timetable,
 }
 
 impl<'s, 'a, const W: usize> Search<'s, 'a, W> {
@@ -104,6 +108,8 @@ impl<'s, 'a, const W: usize> Search<'s, 'a, W> {
             heads: HashMap::default(),
             incumbent,
             ahead: Vec::new(),
+            open: Vec::new(),
+            timetable: Timetable::new(model),
         }
     }
 
@@ -156,7 +162,7 @@ impl<'s, 'a, const W: usize> Search<'s, 'a, W> {
         }
         let mut ahead = std::mem::take(&mut self.ahead);
         ahead.clear();
-        let mut in_reach = label.served;
+        let mut in_reach = Bits::<W>::EMPTY;
         for to in pool.minus(&label.served).iter() {
             let run = model.wide.step(&label.run, to);
             if model.wide.in_time(&run)
@@ -168,13 +174,24 @@ impl<'s, 'a, const W: usize> Search<'s, 'a, W> {
             }
         }
         // Where no detour is a short cut, who cannot be reached now never can.
-        let met =
-            |d: u32| self.members[d as usize].common(&in_reach) >= model.demands[d as usize].needs;
-        if !model.direct || label.open.iter().all(met) {
+        let mut left = in_reach;
+        if !model.direct {
+            left = Bits::of(0..model.len() as u32).minus(&label.served);
+        }
+        let mut open = std::mem::take(&mut self.open);
+        open.clear();
+        open.extend(label.open.iter().map(|d| {
+            let members = self.members[d as usize];
+            (members, model.demands[d as usize].needs - members.common(&label.served))
+        }));
+        if self.timetable.keeps(model, &label.run, &open, &mut left) {
             for run in &ahead {
-                self.extend(&label, entry, *run);
+                if left.contains(run.node) && self.timetable.admits(&label.run, run) {
+                    self.extend(&label, entry, *run);
+                }
             }
         }
+        self.open = open;
         self.ahead = ahead;
     }
 
@@ -222,8 +239,10 @@ impl<'s, 'a, const W: usize> Search<'s, 'a, W> {
         };
         if let Some(new) = self.insert(new) {
             self.heap.push(Entry { bound, stops, label: new });
-            let label = self.labels[new as usize].clone();
-            self.complete(&label, new);
+            if open.is_empty() {
+                let label = self.labels[new as usize].clone();
+                self.complete(&label, new);
+            }
         }
     }
 

@@ -16,6 +16,10 @@ pub struct Tally {
     /// By state and candidate, the state after a visit.
     after: Vec<u16>,
     candidates: usize,
+    /// By demand counted, its members.
+    members: Vec<Vec<u32>>,
+    /// By demand counted, how many counts it has, from none to what it needs.
+    sizes: Vec<usize>,
 }
 
 impl Tally {
@@ -39,7 +43,37 @@ impl Tally {
                 after.push(next as u16);
             }
         }
-        Self { demands, states, after, candidates: n }
+        let members = demands.iter().map(|&d| model.demands[d].members.clone()).collect();
+        Self { demands, states, after, candidates: n, members, sizes }
+    }
+
+    /// Closes the states, by interval, candidate and counts, in which more of a demand's members were visited
+    /// than had been within reach by then, or fewer than those that will be can make up for.
+    pub fn rule_out(&self, live: &mut [bool], intervals: usize) {
+        let (n, states) = (self.candidates, self.states);
+        let open = |b: usize, i: u32| {
+            let place = (b * n + i as usize) * states;
+            live[place..place + states].contains(&true)
+        };
+        let span = |&i: &u32| {
+            let first = (0..intervals).find(|&b| open(b, i))?;
+            Some((i, first, (0..intervals).rfind(|&b| open(b, i))?))
+        };
+        let spans = self.members.iter().map(|members| members.iter().filter_map(span).collect());
+        let spans: Vec<Vec<(u32, usize, usize)>> = spans.collect();
+        let mut unit = 1;
+        for (spans, &size) in spans.iter().zip(&self.sizes) {
+            for (place, live) in live.chunks_exact_mut(states).enumerate() {
+                let (b, i) = (place / n, (place % n) as u32);
+                let before = spans.iter().filter(|(_, first, _)| *first <= b).count();
+                let after = spans.iter().filter(|(m, _, last)| *m != i && *last >= b).count();
+                for (state, live) in live.iter_mut().enumerate() {
+                    let count = state / unit % size;
+                    *live &= count <= before && count + after + 1 >= size;
+                }
+            }
+            unit *= size;
+        }
     }
 
     /// The state after a visit.
