@@ -242,7 +242,6 @@ fn a_policy_that_is_named_must_be_good() {
 }
 
 #[test]
-#[ignore = "until a solver asks the policy"]
 fn a_policy_alone_plans_the_same_tour_twice() {
     let folder = tempfile::tempdir().unwrap();
     let model = folder.path().join("policy.onnx");

@@ -114,24 +114,21 @@ impl Contest {
     fn winner(&self, scenario: &Scenario) -> Result<Winner, PlanError> {
         let policy = self.policy(scenario).ok();
         let (mut refused, mut tried) = (Vec::new(), PolicyUse::Unused);
-        let began = self.clock.now();
         let contenders =
             [Some(self.solver), Some(SolverName::Baseline), Some(SolverName::Greedy), None];
         for (i, contender) in contenders.into_iter().enumerate() {
             let is_done = contender.is_some() && contenders[..i].contains(&contender);
-            // That there is no policy is no defect of the solver that needs one.
-            if is_done || contender == Some(SolverName::Dqn) && policy.is_none() {
+            if is_done {
                 continue;
             }
-            let budget = if refused.is_empty() { self.left(began) } else { self.budget / PART };
+            let budget = if i == 0 { self.budget } else { self.budget / PART };
             let watch = Watch::new(self, budget, policy);
             let attempt = watch.attempt(scenario, contender);
             let how = watch.tried.replace(PolicyUse::Unused);
-            if how != PolicyUse::Unused {
+            if !matches!(how, PolicyUse::Unused | PolicyUse::Missing) {
                 tried = how;
             }
             match attempt {
-                Ok(outcome) if contender == Some(SolverName::Dqn) && is_without(&outcome) => {}
                 Ok(mut outcome) => {
                     let elapsed_s = watch.elapsed_s();
                     outcome.plan.elapsed_s = elapsed_s;
@@ -151,15 +148,4 @@ impl Contest {
         }
         Err(PlanError::Refused(refused))
     }
-
-    /// What is left of the budget; a part of it in any case.
-    fn left(&self, began: Timestamp) -> Duration {
-        let spent = Duration::try_from_secs_f64(seconds(began, self.clock.now()));
-        self.budget.saturating_sub(spent.unwrap_or_default()).max(self.budget / PART)
-    }
-}
-
-/// Whether the policy has no tour to offer.
-fn is_without(outcome: &Outcome) -> bool {
-    matches!(outcome.policy, PolicyUse::NoTour | PolicyUse::Failed(_))
 }

@@ -40,7 +40,7 @@ impl PolicyPart {
         let used = Some(used(policy));
         let file = &policy.about.source;
         match tried {
-            PolicyUse::Unused => Self::default(),
+            PolicyUse::Unused | PolicyUse::Missing => Self::default(),
             PolicyUse::Built => Self { used, winning: Some(Winning::of(winner)), fallback: None },
             PolicyUse::NoTour => {
                 let why = format!("{file}: it built no feasible tour");

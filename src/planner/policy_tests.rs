@@ -12,26 +12,9 @@ use crate::policy::tests::{onnx::Onnx, policy, zeros};
 use crate::policy::{Fallback, Policies, Winning, load};
 use crate::store::fixture::Bench;
 
-/// Asks the policy once, as a solver that is guided by it would, and builds greedily.
-fn asks(scenario: &Scenario, options: &Options<'_>) -> Result<Outcome, Unavailable> {
-    let solver = match options.solver {
-        SolverName::Auto | SolverName::Dqn => SolverName::Greedy,
-        other => other,
-    };
-    let mut outcome = solve(scenario, &Options { solver, ..*options })?;
-    if let Some(function) = options.policy {
-        let answer = function.values(&States { states: 1, ..States::default() });
-        outcome.policy = answer.map_or_else(PolicyUse::Failed, |_| PolicyUse::Built);
-    }
-    if outcome.policy == PolicyUse::Built {
-        outcome.plan.solver = "dqn".to_owned();
-    }
-    Ok(outcome)
-}
-
-/// The policy finds nothing.
+/// The policy finds nothing: what it was not lucky enough for.
 fn finds_nothing(scenario: &Scenario, options: &Options<'_>) -> Result<Outcome, Unavailable> {
-    let mut outcome = asks(scenario, options)?;
+    let mut outcome = solve(scenario, &Options { policy: None, ..*options })?;
     if options.policy.is_some() {
         outcome.policy = PolicyUse::NoTour;
     }
@@ -74,7 +57,7 @@ fn failing(bytes: &[u8]) -> Policies {
 
 #[tokio::test]
 async fn a_policy_that_built_the_tour_is_recorded() {
-    let (planned, provenance) = planned(SolverName::Auto, asks, zeros()).await;
+    let (planned, provenance) = planned(SolverName::Dqn, solve, zeros()).await;
     assert_eq!(planned.policy.winning, Some(Winning::Policy));
     let used = &provenance["policy"];
     assert_eq!((&used["name"], &used["problem"]), (&"mobile".into(), &"mobile".into()));
@@ -94,7 +77,7 @@ async fn each_way_to_fail_while_planning_is_recorded() {
     ];
     for (error, fallback) in ways {
         for (solver, winner) in [(SolverName::Auto, "greedy"), (SolverName::Dqn, "baseline")] {
-            let (planned, provenance) = planned(solver, asks, told(error.clone())).await;
+            let (planned, provenance) = planned(solver, solve, told(error.clone())).await;
             let (found, why) = planned.policy.fallback.unwrap();
             assert_eq!((found, planned.policy.winning), (fallback, None));
             let reason = provenance["fallback_reason"].as_str().unwrap();
@@ -124,7 +107,7 @@ async fn each_model_that_is_not_used_is_recorded() {
     for (policies, fallback) in ways {
         for solver in [SolverName::Auto, SolverName::Dqn] {
             let error = policies.of(Problem::Mobile).unwrap_err().to_string();
-            let (planned, provenance) = planned(solver, asks, policies.clone()).await;
+            let (planned, provenance) = planned(solver, solve, policies.clone()).await;
             assert_eq!(planned.policy.fallback, Some((fallback, error.clone())));
             let reason = provenance["fallback_reason"].as_str().unwrap();
             assert_eq!(reason, format!("policy: {fallback}: {error}"));
@@ -143,7 +126,7 @@ async fn without_a_feasible_tour_the_baseline_plans() {
 
 #[tokio::test]
 async fn who_asks_no_policy_misses_none() {
-    let (planned, provenance) = planned(SolverName::Baseline, asks, Policies::none()).await;
+    let (planned, provenance) = planned(SolverName::Baseline, solve, Policies::none()).await;
     assert_eq!(planned.policy, super::PolicyPart::default());
     assert!(provenance["fallback_reason"].is_null() && provenance["policy"].is_null());
 }
@@ -181,7 +164,7 @@ async fn a_policy_past_its_share_of_the_time_is_left() {
     let bench = Bench::new().await;
     bench.submit("s1").await;
     let batch = closed(&bench).await;
-    let contest = Contest { solve: asks, ..contest(&bench, SolverName::Dqn) };
+    let contest = contest(&bench, SolverName::Dqn);
     let clock = contest.clock.clone();
     let slow = Policies::new(|problem| Ok(policy(problem, Arc::new(Dawdles(clock.clone())))));
     let planned = plan(&batch, &Contest { policies: slow.into(), ..contest }).unwrap();

@@ -19,7 +19,7 @@ use voltour_solver::policy::{Batch, FEATURES};
 use super::Fault;
 
 /// Sizes of inputs for which an optimised graph is kept.
-const KEPT: NonZeroUsize = NonZeroUsize::MIN.saturating_add(31);
+const KEPT: NonZeroUsize = NonZeroUsize::MIN.saturating_add(63);
 
 /// A dimension of the contract: a size, or one that is known when the graph runs.
 type Dimension = Option<usize>;

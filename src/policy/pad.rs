@@ -9,15 +9,12 @@ const MOST_STATES: usize = 32;
 /// Most values in the edges of one run: 32 MiB.
 const MOST_EDGES: usize = 1 << 23;
 
-/// Rows are rounded up to a multiple of this.
-const ROWS: usize = 8;
-
 /// Most candidates of a state; one of this size alone has edges of 64 MiB.
 pub(super) const MOST_ROWS: usize = 4_096;
 
-/// Rows of the padded batch of states with so many.
+/// Rows of the padded batch of states with so many: a multiple of 8, and of an eighth of the power of two above.
 pub(super) fn padded_rows(rows: usize) -> usize {
-    rows.next_multiple_of(ROWS)
+    rows.next_multiple_of((rows.next_power_of_two() / 8).max(8))
 }
 
 /// How many states with so many rows are run at once: a power of two.
@@ -28,10 +25,16 @@ pub(super) fn states_at_once(rows: usize) -> usize {
     1 << fit.ilog2()
 }
 
-/// So many states of a batch, padded: the number of rows to a multiple of 8, that of states to a power of two.
+/// States of the padded batch of so many: 1, 8, 16 or 32, no more than are run at once. Smaller steps would cost
+/// more, for a graph takes longer to be optimised than a few states to be run.
+fn padded_states(states: usize, at_once: usize) -> usize {
+    if states <= 1 { states } else { states.next_power_of_two().max(8).min(at_once) }
+}
+
+/// So many states of a batch, at most as many as are run at once; padded.
 pub(super) fn padded(batch: &Batch, from: usize, states: usize) -> Batch {
     let (n, rows) = (batch.rows, padded_rows(batch.rows));
-    let all = states.next_power_of_two();
+    let all = padded_states(states, states_at_once(batch.rows));
     let mut padded = Batch {
         states: all,
         rows,
@@ -60,8 +63,11 @@ mod tests {
 
     #[test]
     fn few_sizes_and_bounded_ones() {
-        assert_eq!([1, 7, 8, 9, 80].map(padded_rows), [8, 8, 8, 16, 80]);
+        assert_eq!([1, 7, 8, 9, 60, 66, 80, 300].map(padded_rows), [8, 8, 8, 16, 64, 80, 80, 320]);
         assert_eq!([1, 80, 512, 600, 1_000, 4_096].map(states_at_once), [32, 32, 32, 16, 8, 1]);
+        let padded = |states| padded_states(states, 32);
+        assert_eq!([1, 2, 7, 9, 16, 17].map(padded), [1, 8, 8, 16, 16, 32]);
+        assert_eq!([1, 2, 3].map(|states| padded_states(states, 4)), [1, 4, 4]);
     }
 
     #[test]
@@ -74,13 +80,12 @@ mod tests {
             mask: vec![1.0; 6],
         };
         let padded = padded(&batch, 1, 2);
-        assert_eq!((padded.states, padded.rows), (2, 8));
+        assert_eq!((padded.states, padded.rows), (8, 8));
         assert_eq!(padded.nodes.iter().filter(|value| **value != 0.0).count(), 4 * FEATURES);
         assert_eq!(padded.nodes[8 * FEATURES], batch.nodes[4 * FEATURES]);
         // State 2, from row 1 to row 0.
         assert_eq!(padded.edges[64 + 8], batch.edges[8 + 2]);
         assert_eq!(padded.edges.iter().sum::<f32>(), batch.edges[4..].iter().sum::<f32>());
         assert_eq!(padded.mask.iter().sum::<f32>(), 4.0);
-        assert_eq!(super::padded(&batch, 0, 3).states, 4);
     }
 }

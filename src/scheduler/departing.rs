@@ -126,7 +126,7 @@ impl Departing {
         if let Some((reason, why)) = &policy.fallback {
             self.metrics.policy_fell_back(*reason);
             if policy.used.is_some() {
-                tracing::warn!(%departure, %reason, why, "planned without the policy");
+                tracing::warn!(%departure, %reason, why, "the policy broke down, or built no tour");
             } else {
                 // What is wrong with a model was a warning when it was loaded.
                 tracing::info!(%departure, %reason, "planned without a policy");

@@ -116,7 +116,6 @@ async fn sighup_takes_a_good_model_and_refuses_a_bad_one() {
 }
 
 #[tokio::test]
-#[ignore = "until a solver asks the policy"]
 async fn the_policy_that_was_asked_is_recorded_and_a_new_one_takes_its_place() {
     let folder = folder(Some(&Onnx::of("reward").bytes()));
     let app = start(folder.path(), "dqn").await;

@@ -62,7 +62,9 @@ fn another_version_or_problem_is_refused() {
 fn other_tensors_are_refused() {
     let wide = Onnx { features: FEATURES + 1, ..Onnx::of("reward") };
     let fault = loaded(&wide.bytes()).unwrap_err().to_string();
-    assert!(fault.contains("nodes is float [?, ?, 33]; float [?, ?, 32] is required"), "{fault}");
+    let said =
+        format!("nodes is float [?, ?, {}]; float [?, ?, {FEATURES}] is required", FEATURES + 1);
+    assert!(fault.contains(&said), "{fault}");
     let input = |model: &mut ModelProto, i: usize, sizes: &[Option<i64>]| {
         let input = &mut model.graph.as_mut().unwrap().input[i];
         *input = value(&input.name.clone(), sizes);
