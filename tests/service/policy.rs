@@ -30,7 +30,9 @@ fn put(folder: &Path, reward: &[u8]) {
 /// A server whose policies come from a folder.
 async fn start(folder: &Path, solver: &'static str) -> TestApp {
     let more = format!("[policy]\nfolder = {folder:?}\n");
-    let app = TestApp::with(Settings { more, solver, ..Settings::default() }).await;
+    // Time enough on a busy machine: what is asked here is proven long before.
+    let (budget, lead) = ("10s", "11s");
+    let app = TestApp::with(Settings { more, solver, budget, lead, ..Settings::default() }).await;
     app.put(line(3)).await;
     app
 }
