@@ -13,7 +13,7 @@ use voltour_solver::solvers::{Options, Outcome, PolicyUse, SolverName, Unavailab
 use super::part::PolicyPart;
 use super::watch::Watch;
 use super::{record, scenario};
-use crate::clock::{Clock, seconds};
+use crate::clock::Clock;
 use crate::policy::{ModelError, Policies, Policy};
 use crate::store::{Batch, NewPlan};
 
