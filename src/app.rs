@@ -16,6 +16,7 @@ use crate::grpc::{Edge, Server, ServerError};
 use crate::lifecycle::Lifecycle;
 use crate::listen::Counted;
 use crate::metrics::Metrics;
+use crate::policy::{self, Shelf};
 use crate::rest::{self, RestState};
 use crate::scheduler::{self, Running};
 use crate::store::{Store, StoreError};
@@ -65,6 +66,8 @@ pub struct App {
     pub grpc: SocketAddr,
     /// Where REST is served.
     pub rest: SocketAddr,
+    policies: Shelf,
+    metrics: Metrics,
     lifecycle: Lifecycle,
     stop_within: Duration,
     servers: [JoinHandle<Result<(), AppError>>; 2],
@@ -74,7 +77,7 @@ pub struct App {
 }
 
 impl App {
-    /// Starts the store, the scheduler, the listeners and the explainer, in this order. It answers when it returns.
+    /// Loads the policies; starts the store, the scheduler, the listeners and the explainer, in this order. It answers when it returns.
     ///
     /// # Errors
     /// One of them did not start; those before it have ended again.
@@ -83,6 +86,8 @@ impl App {
         clock: Arc<dyn Clock>,
         lifecycle: Lifecycle,
     ) -> Result<Self, AppError> {
+        let folder = config.policy.folder.clone();
+        let policies = tokio::task::spawn_blocking(move || Shelf::open(folder.as_deref())).await?;
         let path = &config.store.path;
         let opened = Store::open(path, clock.clone()).await;
         let store =
@@ -91,9 +96,9 @@ impl App {
         let settings = config.settings();
         let metrics = Metrics::default();
         let (reads, writer) = (store.reads.clone(), store.writer.clone());
-        let (handle, running) =
-            scheduler::start(store, clock.clone(), settings, metrics.clone(), cancel.clone())
-                .await?;
+        let (shelf, counted, scheduled) = (policies.clone(), metrics.clone(), cancel.clone());
+        let starting = scheduler::start(store, clock.clone(), settings, shelf, counted, scheduled);
+        let (handle, running) = starting.await?;
         let listening = async {
             let grpc = listen("grpc.listen", config.grpc.listen).await?;
             let rest = listen("rest.listen", config.rest.listen).await?;
@@ -116,16 +121,30 @@ impl App {
             tokio::spawn(serve_rest(rest, state, soft)),
         ];
         let soft = lifecycle.soft.clone();
-        let explainer = Explainer::new(reads, writer, clock, config.explainer(), metrics, soft);
+        let counted = metrics.clone();
+        let explainer = Explainer::new(reads, writer, clock, config.explainer(), counted, soft);
         Ok(Self {
             grpc: grpc_at,
             rest: rest_at,
+            policies,
+            metrics,
             lifecycle,
             stop_within: config.lifecycle.stop_within.0,
             servers,
             explainer: tokio::spawn(explainer.run()),
             running,
             scheduler: cancel,
+        })
+    }
+
+    /// Loads the policies again at every SIGHUP from now on.
+    ///
+    /// # Errors
+    /// The system refuses the handler.
+    pub fn reload_on_hangup(&self) -> io::Result<()> {
+        let (metrics, soft) = (self.metrics.clone(), self.lifecycle.soft.clone());
+        policy::on_hangup(self.policies.clone(), soft, move |_, became| {
+            metrics.policy_reloaded(became);
         })
     }
 

@@ -12,6 +12,7 @@ pub mod lifecycle;
 pub mod listen;
 pub mod metrics;
 pub mod planner;
+pub mod policy;
 pub mod rest;
 pub mod scheduler;
 pub mod store;

@@ -9,6 +9,11 @@ use std::process::{Command, Output, Stdio};
 
 use serde_json::Value;
 
+use self::onnx::Onnx;
+
+#[path = "common/onnx.rs"]
+mod onnx;
+
 const SMALL: &str = r#"{
   "format": "voltour/scenario/1", "name": "small", "objective": "min_distance",
   "charger": {"start_m": [250, 250], "end_m": [250, 250], "speed_mps": 5, "travel_jpm": 600,
@@ -197,11 +202,80 @@ fn bad_documents_are_one_line() {
 }
 
 #[test]
+fn a_policy_that_is_named_must_be_good() {
+    let folder = tempfile::tempdir().unwrap();
+    let bytes = Onnx::of("k_coverage").bytes();
+    let nan = Onnx { factor: f32::NAN, ..Onnx::of("k_coverage") }.bytes();
+    let old = Onnx { version: "0".into(), ..Onnx::of("k_coverage") }.bytes();
+    let wide = Onnx { features: 7, ..Onnx::of("k_coverage") }.bytes();
+    let cases: [(&[u8], &str); 5] = [
+        (&bytes[..bytes.len() / 3], "is no ONNX model"),
+        (&nan, "must be finite"),
+        (&old, "features of version 0"),
+        (&wide, "[?, ?, 7]"),
+        (&Onnx::of("mobile").bytes(), "is trained for mobile"),
+    ];
+    let model = folder.path().join("k_coverage.onnx");
+    let (model, folder) = (model.to_str().unwrap(), folder.path().to_str().unwrap());
+    for (bytes, says) in cases {
+        fs::write(model, bytes).unwrap();
+        for arguments in [["--model", model], ["--policy-folder", folder]] {
+            for solver in ["auto", "dqn"] {
+                let solve = ["solve", "-", "--solver", solver, arguments[0], arguments[1]];
+                let line = refused(&voltour(&solve, SMALL));
+                assert!(line.contains(says) && line.contains(model), "{line}");
+                assert!(line.contains(arguments[0]), "{line}");
+            }
+        }
+    }
+    let line = refused(&voltour(&["solve", "-", "--model", "/no/policy.onnx"], SMALL));
+    assert!(line.contains("/no/policy.onnx: there is no model"), "{line}");
+    let line = refused(&voltour(&["solve", "-", "--policy-folder", "/no/folder"], SMALL));
+    assert!(line.contains("/no/folder"), "{line}");
+    let greedy = ["solve", "-", "--solver", "greedy", "--model", model];
+    assert!(refused(&voltour(&greedy, SMALL)).contains("only the solvers auto and dqn"));
+    fs::write(model, &bytes).unwrap();
+    let output = voltour(&["solve", "-", "--iterations", "50", "--model", model], SMALL);
+    assert_eq!(code(&output), 0, "{}", text(&output.stderr));
+    let again = voltour(&["solve", "-", "--iterations", "50", "--policy-folder", folder], SMALL);
+    assert_eq!(json(&again.stdout)["stops"], json(&output.stdout)["stops"]);
+}
+
+#[test]
+fn a_policy_alone_plans_the_same_tour_twice() {
+    let folder = tempfile::tempdir().unwrap();
+    let model = folder.path().join("policy.onnx");
+    fs::write(&model, Onnx::of("k_coverage").bytes()).unwrap();
+    let solve = ["solve", "-", "--solver", "dqn", "--iterations", "32", "--model"];
+    let solve = [&solve[..], &[model.to_str().unwrap()]].concat();
+    let plans = [(); 2].map(|()| {
+        let output = voltour(&solve, SMALL);
+        assert_eq!(code(&output), 0, "{}", text(&output.stderr));
+        json(&output.stdout)
+    });
+    assert_eq!((&plans[0]["solver"], &plans[0]["stops"]), (&"dqn".into(), &plans[1]["stops"]));
+}
+
+#[test]
+fn policies_are_listed() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("mobile.onnx"), Onnx::of("mobile").bytes()).unwrap();
+    fs::write(folder.path().join("reward.onnx"), b"damaged").unwrap();
+    let path = folder.path().to_str().unwrap();
+    let output = voltour(&["policy", "list", "--policy-folder", path], "");
+    assert_eq!(code(&output), 1, "not every problem has its policy");
+    let listed = text(&output.stdout);
+    for said in
+        ["k_coverage\n", "mobile.onnx\n  sha256 ", "{\"steps\": 0}", "none: ", "reward.onnx: is no"]
+    {
+        assert!(listed.contains(said), "{said} is not in\n{listed}");
+    }
+}
+
+#[test]
 fn bad_arguments_are_one_line() {
     let line = refused(&voltour(&["solve", "-", "--solver", "magic"], SMALL));
     assert!(line.contains("unknown solver \"magic\"") && line.contains("baseline"), "{line}");
-    let line = refused(&voltour(&["solve", "-", "--model", "policy.onnx"], SMALL));
-    assert!(line.contains("--model"), "{line}");
     assert!(refused(&voltour(&["solve", "/nowhere.json"], "")).contains("/nowhere.json"));
     for command in ["check", "explain"] {
         assert!(refused(&voltour(&[command, "-", "-"], SMALL)).contains("standard input"));

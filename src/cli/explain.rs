@@ -9,6 +9,7 @@ use voltour_solver::explain::{Explanation, explain};
 use voltour_solver::plan::Plan;
 use voltour_solver::scenario::Scenario;
 
+use super::policies::Choice;
 use super::solve::{Limits, Planning, solver, time};
 use super::stopwatch::Stopwatch;
 use super::{Failure, documents, pretty};
@@ -52,6 +53,9 @@ pub struct Args {
     /// The solver, where there is no PLAN
     #[arg(long, value_name = "NAME", default_value = "auto", conflicts_with = "plan")]
     pub solver: String,
+    /// The trained policy, where there is no PLAN.
+    #[command(flatten)]
+    pub policy: Choice,
     /// Seed of every random choice
     #[arg(long, value_name = "S", default_value_t = 0)]
     pub seed: u64,
@@ -76,6 +80,7 @@ pub fn run(args: Args) -> Result<ExitCode, Failure> {
         return Err(Failure::input("only one document can come from standard input"));
     }
     let solver = solver(&args.solver)?;
+    args.policy.check(solver)?;
     let limits = Limits::new(args.time_limit, args.iterations, DEFAULT_LIMIT);
     let scenario = documents::scenario(&args.scenario)?;
     let watch = Stopwatch::start();
@@ -83,7 +88,8 @@ pub fn run(args: Args) -> Result<ExitCode, Failure> {
         Some(path) => held(&scenario, documents::plan(path)?)?,
         None => {
             let limits = limits.share(SOLVING);
-            Planning { solver, seed: args.seed, limits }.plan(&scenario)?
+            let policy = args.policy.policy(solver, &scenario)?;
+            Planning { solver, seed: args.seed, limits, policy }.plan(&scenario)?
         }
     };
     let limits = limits.after(watch.elapsed());

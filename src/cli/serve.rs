@@ -33,7 +33,8 @@ pub struct Args {
 const HELP: &str = "\
 When it is ready it prints one line to standard output,
   voltour ready grpc=http://127.0.0.1:7440 rest=http://127.0.0.1:7480
-and logs to standard error from then on. SIGTERM or Ctrl-C ends it gently, a second one at once.
+and logs to standard error from then on. SIGTERM or Ctrl-C ends it gently, a second one at once. SIGHUP loads the
+trained policies again; one that does not pass its checks is refused, and that from before stays in use.
 
 Configuration, as TOML (these are the defaults):
   [grpc]
@@ -51,6 +52,8 @@ Configuration, as TOML (these are the defaults):
   overdue_after = \"30m\"        # silence after the planned finish
   seed = 0
   threads = 1
+  [policy]
+  # folder = \"models\"          # k_coverage.onnx, reward.onnx, mobile.onnx in place of those in the binary
   [limits]
   message_bytes = 4194304
   connections = 1000
@@ -94,6 +97,7 @@ async fn serve(config: Config) -> Result<(), Failure> {
     lifecycle.listen().map_err(|error| failed(&error))?;
     let started = App::start(&config, Arc::new(SystemClock), lifecycle).await;
     let app = started.map_err(|error| failed(&error))?;
+    app.reload_on_hangup().map_err(|error| failed(&error))?;
     say(format!("voltour ready grpc=http://{} rest=http://{}", app.grpc, app.rest));
     app.run().await.map_err(|error| failed(&error))
 }

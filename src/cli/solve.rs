@@ -1,18 +1,22 @@
 //! `voltour solve`. Plans one tour: a scenario document in, a plan document out, checked before it is
 //! shown.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::Duration;
 
 use voltour_solver::check::check;
 use voltour_solver::plan::Plan;
+use voltour_solver::policy::QFunction;
 use voltour_solver::scenario::Scenario;
-use voltour_solver::solvers::{self, Options, SolverName};
+use voltour_solver::solvers::{self, Options, PolicyUse, SolverName};
 use voltour_solver::stop::StopRule;
 
+use super::policies::Choice;
 use super::stopwatch::Stopwatch;
 use super::{Failure, documents, pretty};
+use crate::clock::SystemClock;
+use crate::policy::{Limited, Policy};
 use crate::svg;
 
 /// Where neither a time nor a number of iterations is given.
@@ -49,9 +53,9 @@ pub struct Args {
     /// Seed of every random choice
     #[arg(long, value_name = "S", default_value_t = 0)]
     pub seed: u64,
-    /// Trained policy (ONNX), for the solvers auto and dqn
-    #[arg(long, value_name = "FILE")]
-    pub model: Option<PathBuf>,
+    /// The trained policy.
+    #[command(flatten)]
+    pub policy: Choice,
     /// Also draw the plan into this file
     #[arg(long, value_name = "FILE")]
     pub svg: Option<PathBuf>,
@@ -63,15 +67,14 @@ pub struct Args {
 /// Runs the command.
 pub fn run(args: Args) -> Result<ExitCode, Failure> {
     let solver = solver(&args.solver)?;
-    if let Some(path) = &args.model {
-        return Err(no_model(path, solver));
-    }
+    args.policy.check(solver)?;
     if let Some(svg) = args.svg.as_deref().filter(|svg| documents::is_standard(svg)) {
         return Err(Failure::input(format!("--svg {}: must be a file", svg.display())));
     }
     let limits = Limits::new(args.time_limit, args.iterations, DEFAULT_LIMIT);
     let scenario = documents::scenario(&args.scenario)?;
-    let plan = Planning { solver, seed: args.seed, limits }.plan(&scenario)?;
+    let policy = args.policy.policy(solver, &scenario)?;
+    let plan = Planning { solver, seed: args.seed, limits, policy }.plan(&scenario)?;
     // The picture first: where it cannot be written, there is no plan on standard output either.
     if let Some(path) = &args.svg {
         documents::write(Some(path), &svg::picture(&scenario, &plan))?;
@@ -88,32 +91,39 @@ pub(super) fn solver(name: &str) -> Result<SolverName, Failure> {
     })
 }
 
-fn no_model(path: &Path, solver: SolverName) -> Failure {
-    let why = match solver {
-        SolverName::Auto | SolverName::Dqn => "this version runs no trained policy; leave it out",
-        _ => "only the solvers auto and dqn use a trained policy",
-    };
-    Failure::input(format!("--model {:?}: {why}", path.display().to_string()))
-}
-
 /// How to plan.
 pub(super) struct Planning {
     pub solver: SolverName,
     pub seed: u64,
     pub limits: Limits,
+    pub policy: Option<Policy>,
 }
 
 impl Planning {
     /// Solves and checks.
     pub fn plan(self, scenario: &Scenario) -> Result<Plan, Failure> {
-        let Self { solver, seed, limits } = self;
+        let Self { solver, seed, limits, policy } = self;
         let watch = Stopwatch::start();
-        let solved = limits
-            .within(|stop| solvers::solve(scenario, &Options { solver, seed, stop, policy: None }));
-        let mut plan = solved.map_err(|error| Failure::input(format!("--solver: {error}")))?.plan;
+        let clock = SystemClock;
+        let limited = policy
+            .as_ref()
+            .map(|policy| Limited::new(&*policy.function, &clock, limits.policy_share()));
+        let policy = limited.as_ref().map(|policy| policy as &dyn QFunction);
+        let solved =
+            limits.within(|stop| solvers::solve(scenario, &Options { solver, seed, stop, policy }));
+        let outcome = solved.map_err(|error| Failure::input(format!("--solver: {error}")))?;
+        warn(&outcome.policy);
+        let mut plan = outcome.plan;
         plan.elapsed_s = watch.elapsed().as_secs_f64();
         let broken = check(scenario, &plan);
         if broken.is_empty() { Ok(plan) } else { Err(refused(&plan.solver, &broken)) }
+    }
+}
+
+/// A policy that broke down is no failure, for the tour holds without it; but whoever asked should know.
+fn warn(policy: &PolicyUse) {
+    if let PolicyUse::Failed(error) = policy {
+        eprintln!("voltour: the policy was not used: {error}");
     }
 }
 
@@ -142,6 +152,11 @@ impl Limits {
     /// One of so many equal shares of the time.
     pub fn share(self, of: u32) -> Self {
         Self { time: self.time.map(|time| time / of), ..self }
+    }
+
+    /// The part of the time that the values of a policy may take: half of it.
+    fn policy_share(self) -> Duration {
+        self.time.map_or(Duration::MAX, |time| time / 2)
     }
 
     /// What is left after some time.

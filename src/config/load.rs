@@ -100,6 +100,9 @@ impl Config {
         errors.check(!same, "rest.listen", self.rest.listen, "must not be that of grpc.listen");
         let path = self.store.path.display();
         errors.check(!path.to_string().is_empty(), "store.path", "\"\"", "must name a file");
+        let folder = self.policy.folder.as_deref();
+        let is_named = folder.is_none_or(|folder| !folder.as_os_str().is_empty());
+        errors.check(is_named, "policy.folder", "\"\"", "must name a folder");
         self.check_planning(&mut errors);
         self.check_limits(&mut errors);
         if errors.0.is_empty() { Ok(()) } else { Err(ConfigError(errors.0)) }
@@ -220,6 +223,7 @@ mod tests {
             ("[planning]\nsolver = \"magic\"", "planning.solver", "magic"),
             ("[planning]\nexplanation_budget = \"1h\"", "explanation_budget: 1h", "from 0s to 10m"),
             ("[planning]\nthreads = 0", "planning.threads: 0", "from 1 to 64"),
+            ("[policy]\nfolder = \"\"", "policy.folder", "must name a folder"),
             ("[limits]\nstreams = -1", "limits.streams", "-1"),
             ("[log]\nformat = \"xml\"", "log.format", "xml"),
             ("[grpc]\nlisten = \"here\"", "grpc.listen", "socket address"),

@@ -6,5 +6,5 @@ mod sections;
 mod span;
 
 pub use load::{ConfigError, load};
-pub use sections::{Config, Format, Grpc, Lifecycle, Limits, Log, Planning, Rest, Store};
+pub use sections::{Config, Format, Grpc, Lifecycle, Limits, Log, Planning, Policy, Rest, Store};
 pub use span::Span;

@@ -19,6 +19,8 @@ pub struct Config {
     pub store: Store,
     /// `[planning]`
     pub planning: Planning,
+    /// `[policy]`
+    pub policy: Policy,
     /// `[limits]`
     pub limits: Limits,
     /// `[lifecycle]`
@@ -71,6 +73,15 @@ pub struct Planning {
     pub seed: u64,
     /// Departures of different networks that are planned at once.
     pub threads: usize,
+}
+
+/// The trained policies.
+#[derive(Clone, Debug, PartialEq, Default, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Policy {
+    /// Folder with models that stand in place of those in the binary: `k_coverage.onnx`, `reward.onnx`,
+    /// `mobile.onnx`.
+    pub folder: Option<PathBuf>,
 }
 
 /// What bounds the edges.

@@ -152,9 +152,9 @@ pub struct Provenance {
     /// How far it may be from the best: of its objective to its bound, where it has one.
     #[serde(default)]
     pub gap: Option<f64>,
-    /// The policy's name and the SHA-256 of its file, where one was used.
+    /// The policy that was asked for values, where one was.
     pub policy: Option<PolicyUsed>,
-    /// Why the policy was not used.
+    /// Why the plan was made without the policy (`policy: REASON: ...`), and why contenders were refused.
     pub fallback_reason: Option<String>,
     /// The seed.
     pub seed: u64,
@@ -194,6 +194,10 @@ pub struct PolicyUsed {
     pub name: String,
     /// SHA-256 of its file, in hexadecimal.
     pub digest: String,
+    /// The problem that it is trained for.
+    pub problem: String,
+    /// The version of the features that it takes.
+    pub feature_version: u32,
 }
 
 /// Iterations of one phase of a solver.

@@ -14,6 +14,7 @@ use crate::clock::{Clock, SystemClock};
 use crate::domain::PlanId;
 use crate::metrics::Metrics;
 use crate::planner::{Contest, plan};
+use crate::policy::Policies;
 use crate::store::fixture::Bench;
 use crate::store::{Attempt, BeginExplanation, EndExplanation, Explained, StorePlan};
 
@@ -23,6 +24,7 @@ async fn planned(bench: &Bench, charger: &str) -> PlanId {
     let contest = Contest {
         solver: SolverName::Greedy,
         solve,
+        policies: Policies::none().into(),
         seed: 0,
         budget: Duration::ZERO,
         latest: bench.clock.now(),
@@ -30,7 +32,7 @@ async fn planned(bench: &Bench, charger: &str) -> PlanId {
         cancel: CancellationToken::new(),
     };
     let (departure_id, start) = (batch.departure.id, batch.start);
-    let plan = plan(&batch, &contest).unwrap();
+    let plan = plan(&batch, &contest).unwrap().new;
     bench.store.writer.call(StorePlan { departure_id, start, plan }).await.unwrap();
     bench.store.reads.departure(departure_id).await.unwrap().unwrap().plan_id.unwrap()
 }

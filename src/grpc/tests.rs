@@ -14,6 +14,7 @@ use super::{Edge, Server, ServerError, violations};
 use crate::clock::SystemClock;
 use crate::config::Config;
 use crate::metrics::Metrics;
+use crate::policy::{Policies, Shelf};
 use crate::proto::acknowledgement::Result as Outcome;
 use crate::proto::network_service_client::NetworkServiceClient;
 use crate::proto::request_service_client::RequestServiceClient;
@@ -39,11 +40,17 @@ impl Service {
         let store = Store::open(&directory.join("test.db"), clock.clone()).await.unwrap();
         let (stop, scheduler) = (CancellationToken::new(), CancellationToken::new());
         let config = Config::default();
-        let settings = config.settings();
-        let (handle, running) =
-            scheduler::start(store, clock, settings, Metrics::default(), scheduler.clone())
-                .await
-                .unwrap();
+        let (settings, policies) = (config.settings(), Shelf::of(Policies::none()));
+        let (handle, running) = scheduler::start(
+            store,
+            clock,
+            settings,
+            policies,
+            Metrics::default(),
+            scheduler.clone(),
+        )
+        .await
+        .unwrap();
         let listener = TcpListener::bind("127.0.0.1:0").await.unwrap();
         let address = format!("http://{}", listener.local_addr().unwrap());
         let edge = Edge::new(handle, config.grpc_limits(), stop.clone());

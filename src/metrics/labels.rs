@@ -17,6 +17,27 @@ pub(super) struct ExplanationLabels {
     pub outcome: ExplanationOutcome,
 }
 
+/// Of plans that were made without the policy.
+#[derive(Clone, Debug, PartialEq, Eq, Hash, EncodeLabelSet)]
+pub(super) struct FallbackLabels {
+    /// As the provenance spells it.
+    pub reason: &'static str,
+}
+
+/// Of plans for which the policy built a tour.
+#[derive(Clone, Debug, PartialEq, Eq, Hash, EncodeLabelSet)]
+pub(super) struct WinLabels {
+    /// Whose tour was the best.
+    pub winner: &'static str,
+}
+
+/// Of models that were loaded again.
+#[derive(Clone, Debug, PartialEq, Eq, Hash, EncodeLabelSet)]
+pub(super) struct ReloadLabels {
+    /// What became of it.
+    pub outcome: &'static str,
+}
+
 /// What became of an explanation; one that the end of the service cut short is counted when it is done.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum ExplanationOutcome {

@@ -9,7 +9,10 @@ use prometheus_client::metrics::histogram::Histogram;
 use prometheus_client::registry::{Registry, Unit};
 use voltour_solver::plan::Status;
 
-use super::labels::{ExplanationLabels, ExplanationOutcome, PlanLabels};
+use super::labels::{
+    ExplanationLabels, ExplanationOutcome, FallbackLabels, PlanLabels, ReloadLabels, WinLabels,
+};
+use crate::policy::{Fallback, Reloaded, Winning};
 
 /// The first one counts the tours that are proven to be the best.
 const GAPS: [f64; 10] = [0.0, 0.001, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0];
@@ -23,11 +26,17 @@ pub struct Metrics {
     plan_gap: Histogram,
     plan_time: Histogram,
     explanations: Family<ExplanationLabels, Counter>,
+    policy_fallbacks: Family<FallbackLabels, Counter>,
+    policy_wins: Family<WinLabels, Counter>,
+    policy_reloads: Family<ReloadLabels, Counter>,
 }
 
 impl Default for Metrics {
     fn default() -> Self {
         let (plans, explanations) = (Family::default(), Family::default());
+        let policy_fallbacks: Family<FallbackLabels, Counter> = Family::default();
+        let policy_wins: Family<WinLabels, Counter> = Family::default();
+        let policy_reloads: Family<ReloadLabels, Counter> = Family::default();
         let (plan_gap, plan_time) = (Histogram::new(GAPS), Histogram::new(TIMES_S));
         let mut registry = Registry::with_prefix("voltour");
         registry.register("plans", "Plans stored", plans.clone());
@@ -41,11 +50,36 @@ impl Default for Metrics {
         let help = "Time from the close of a batch to its plan, for plans stored";
         registry.register_with_unit("plan_time", help, Unit::Seconds, plan_time.clone());
         registry.register("explanations", "Plans explained, or given up", explanations.clone());
+        let help = "Plans stored that were made without the policy";
+        registry.register("policy_fallbacks", help, policy_fallbacks.clone());
+        let help = "Plans stored for which the policy built a tour, by whose tour was the best";
+        registry.register("policy_wins", help, policy_wins.clone());
+        let help = "Models loaded again while the service runs";
+        registry.register("policy_reloads", help, policy_reloads.clone());
+        // There from the start: a monitor sees the rise from 0.
         for outcome in [ExplanationOutcome::Done, ExplanationOutcome::Failed] {
-            // There from the start: a monitor sees the rise from 0.
             explanations.get_or_create_owned(&ExplanationLabels { outcome });
         }
-        Self { registry: Arc::new(registry), plans, plan_gap, plan_time, explanations }
+        for reason in Fallback::ALL.map(Fallback::name) {
+            policy_fallbacks.get_or_create_owned(&FallbackLabels { reason });
+        }
+        for winner in Winning::ALL.map(Winning::name) {
+            policy_wins.get_or_create_owned(&WinLabels { winner });
+        }
+        for outcome in Reloaded::NAMES {
+            policy_reloads.get_or_create_owned(&ReloadLabels { outcome });
+        }
+        let registry = Arc::new(registry);
+        Self {
+            registry,
+            plans,
+            plan_gap,
+            plan_time,
+            explanations,
+            policy_fallbacks,
+            policy_wins,
+            policy_reloads,
+        }
     }
 }
 
@@ -63,6 +97,23 @@ impl Metrics {
     /// An explanation has ended.
     pub fn explained(&self, outcome: ExplanationOutcome) {
         self.explanations.get_or_create_owned(&ExplanationLabels { outcome }).inc();
+    }
+
+    /// A plan is stored that was made without the policy.
+    pub fn policy_fell_back(&self, reason: Fallback) {
+        let labels = FallbackLabels { reason: reason.name() };
+        self.policy_fallbacks.get_or_create_owned(&labels).inc();
+    }
+
+    /// A plan is stored for which the policy built a tour.
+    pub fn policy_competed(&self, winner: Winning) {
+        self.policy_wins.get_or_create_owned(&WinLabels { winner: winner.name() }).inc();
+    }
+
+    /// A model was loaded again.
+    pub fn policy_reloaded(&self, became: &Reloaded) {
+        let labels = ReloadLabels { outcome: became.name() };
+        self.policy_reloads.get_or_create_owned(&labels).inc();
     }
 
     /// All of them, as OpenMetrics text.
@@ -87,6 +138,9 @@ mod tests {
         metrics.planned("baseline", Status::Feasible, None, 0.2);
         metrics.planned("exact", Status::Optimal, Some(0.0), 4.0);
         metrics.explained(ExplanationOutcome::Done);
+        metrics.policy_fell_back(Fallback::TooSlow);
+        metrics.policy_competed(Winning::Policy);
+        metrics.policy_reloaded(&Reloaded::Same);
         let text = metrics.text().unwrap();
         for line in [
             r#"voltour_plans_total{solver="baseline",status="feasible"} 2"#,
@@ -98,6 +152,12 @@ mod tests {
             "voltour_plan_time_seconds_count 3",
             r#"voltour_explanations_total{outcome="done"} 1"#,
             r#"voltour_explanations_total{outcome="failed"} 0"#,
+            r#"voltour_policy_fallbacks_total{reason="too_slow"} 1"#,
+            r#"voltour_policy_fallbacks_total{reason="no_model"} 0"#,
+            r#"voltour_policy_wins_total{winner="policy"} 1"#,
+            r#"voltour_policy_wins_total{winner="baseline"} 0"#,
+            r#"voltour_policy_reloads_total{outcome="taken"} 0"#,
+            r#"voltour_policy_reloads_total{outcome="same"} 1"#,
             "# EOF",
         ] {
             assert!(text.lines().any(|said| said == line), "{line} is not in\n{text}");

@@ -1,21 +1,20 @@
 //! The contest: the solver asked for first, and the next contender whenever the independent check
 //! refuses a tour or a solver fails; at last the empty tour. What holds becomes the plan.
 
-use std::cell::{Cell, RefCell};
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 use std::time::Duration;
 
 use jiff::Timestamp;
 use tokio_util::sync::CancellationToken;
-use voltour_solver::check::check;
-use voltour_solver::plan::Plan;
+use voltour_solver::policy::Problem;
 use voltour_solver::scenario::{Scenario, ScenarioError};
-use voltour_solver::solvers::{Options, Outcome, SolverName, Unavailable, empty_plan};
-use voltour_solver::stop::StopRule;
+use voltour_solver::solvers::{Options, Outcome, PolicyUse, SolverName, Unavailable};
 
+use super::part::PolicyPart;
+use super::watch::Watch;
 use super::{record, scenario};
-use crate::clock::{Clock, plus, seconds};
+use crate::clock::Clock;
+use crate::policy::{ModelError, Policies, Policy};
 use crate::store::{Batch, NewPlan};
 
 /// How a contender solves: `voltour_solver::solvers::solve`, but in tests.
@@ -28,6 +27,8 @@ pub struct Contest {
     pub solver: SolverName,
     /// What runs it, and the next contenders.
     pub solve: Solve,
+    /// The trained policies; that of the scenario's problem is for the solvers that ask one.
+    pub policies: Arc<Policies>,
     /// The seed of its search.
     pub seed: u64,
     /// How long its search takes at most; the next contenders get a part of it each.
@@ -57,6 +58,15 @@ pub enum PlanError {
     Record(String),
 }
 
+/// A plan, and what part the policy had in it.
+#[derive(Clone, Debug)]
+pub struct Planned {
+    /// What is stored.
+    pub new: NewPlan,
+    /// What part the policy had in it.
+    pub policy: PolicyPart,
+}
+
 /// A tour that the check accepts.
 pub(super) struct Winner {
     pub outcome: Outcome,
@@ -66,6 +76,8 @@ pub(super) struct Winner {
     pub done_s: Vec<(String, f64)>,
     /// Why earlier contenders lost.
     pub refused: Vec<String>,
+    /// How the policy fared, in whichever contender asked it.
+    pub tried: PolicyUse,
 }
 
 impl Winner {
@@ -84,36 +96,44 @@ impl Winner {
 ///
 /// # Errors
 /// A defect.
-pub fn plan(batch: &Batch, contest: &Contest) -> Result<NewPlan, PlanError> {
+pub fn plan(batch: &Batch, contest: &Contest) -> Result<Planned, PlanError> {
     let (document, scenario) = scenario::scenario(batch)?;
     let winner = contest.winner(&scenario)?;
-    record::record(batch, contest, &document, &scenario, winner)
+    let (asked, solver) = (contest.solver, &winner.outcome.plan.solver);
+    let policy = PolicyPart::of(asked, contest.policy(&scenario), &winner.tried, solver);
+    let new = record::record(batch, contest, &document, &scenario, winner, &policy)?;
+    Ok(Planned { new, policy })
 }
 
 impl Contest {
+    /// The policy of a scenario's problem.
+    fn policy(&self, scenario: &Scenario) -> Result<&Policy, &ModelError> {
+        self.policies.of(Problem::of(scenario.objective))
+    }
+
     fn winner(&self, scenario: &Scenario) -> Result<Winner, PlanError> {
-        let mut refused = Vec::new();
+        let policy = self.policy(scenario).ok();
+        let (mut refused, mut tried) = (Vec::new(), PolicyUse::Unused);
         let contenders =
             [Some(self.solver), Some(SolverName::Baseline), Some(SolverName::Greedy), None];
         for (i, contender) in contenders.into_iter().enumerate() {
-            if contender.is_some() && contenders.iter().take(i).any(|other| *other == contender) {
+            let is_done = contender.is_some() && contenders[..i].contains(&contender);
+            if is_done {
                 continue;
             }
-            let from = self.clock.now();
             let budget = if i == 0 { self.budget } else { self.budget / PART };
-            let watch = Watch {
-                contest: self,
-                budget,
-                from,
-                until: Cell::new(None),
-                done_s: RefCell::default(),
-            };
-            match watch.attempt(scenario, contender) {
+            let watch = Watch::new(self, budget, policy);
+            let attempt = watch.attempt(scenario, contender);
+            let how = watch.tried.replace(PolicyUse::Unused);
+            if !matches!(how, PolicyUse::Unused | PolicyUse::Missing) {
+                tried = how;
+            }
+            match attempt {
                 Ok(mut outcome) => {
-                    let elapsed_s = seconds(from, self.clock.now()).max(0.0);
+                    let elapsed_s = watch.elapsed_s();
                     outcome.plan.elapsed_s = elapsed_s;
-                    let done_s = watch.done_s.into_inner();
-                    return Ok(Winner { outcome, elapsed_s, done_s, refused });
+                    let done_s = watch.done_s();
+                    return Ok(Winner { outcome, elapsed_s, done_s, refused, tried });
                 }
                 Err(reason) => {
                     let name = contender.map_or("empty", SolverName::name);
@@ -128,67 +148,4 @@ impl Contest {
         }
         Err(PlanError::Refused(refused))
     }
-}
-
-/// A contender's search under the clock: ends it in time, and notes when each solver in it was done.
-struct Watch<'a> {
-    contest: &'a Contest,
-    budget: Duration,
-    from: Timestamp,
-    /// When the search ends; set when it begins, for compiling a large scenario is no part of it.
-    until: Cell<Option<Timestamp>>,
-    done_s: RefCell<Vec<(String, f64)>>,
-}
-
-impl StopRule for Watch<'_> {
-    fn should_stop(&self, _: u64) -> bool {
-        let now = self.contest.clock.now();
-        let until = self.until.get().unwrap_or_else(|| {
-            let until = plus(now, self.budget).min(self.contest.latest);
-            self.until.set(Some(until));
-            until
-        });
-        self.contest.cancel.is_cancelled() || now >= until
-    }
-
-    fn done(&self, solver: &str) {
-        let after_s = seconds(self.from, self.contest.clock.now()).max(0.0);
-        self.done_s.borrow_mut().push((solver.to_owned(), after_s));
-    }
-}
-
-impl Watch<'_> {
-    /// A contender's outcome, if the check accepts its tour. A panic in a solver is a tour refused.
-    fn attempt(
-        &self,
-        scenario: &Scenario,
-        contender: Option<SolverName>,
-    ) -> Result<Outcome, String> {
-        let run = || match contender {
-            Some(solver) => self.solve(scenario, solver),
-            None => Ok(empty(empty_plan(scenario))),
-        };
-        let judged = || {
-            let outcome = run()?;
-            let broken = check(scenario, &outcome.plan);
-            let broken: Vec<String> = broken.iter().take(10).map(ToString::to_string).collect();
-            if broken.is_empty() { Ok(outcome) } else { Err(broken.join("; ")) }
-        };
-        catch_unwind(AssertUnwindSafe(judged)).unwrap_or_else(|panic| Err(message(&*panic)))
-    }
-
-    fn solve(&self, scenario: &Scenario, solver: SolverName) -> Result<Outcome, String> {
-        let options = Options { solver, seed: self.contest.seed, stop: self, policy: None };
-        (self.contest.solve)(scenario, &options).map_err(|unavailable| unavailable.to_string())
-    }
-}
-
-fn empty(plan: Plan) -> Outcome {
-    Outcome { plan, iterations: Vec::new(), contenders: Vec::new() }
-}
-
-fn message(panic: &(dyn std::any::Any + Send)) -> String {
-    let text = panic.downcast_ref::<&str>().copied();
-    let text = text.or_else(|| panic.downcast_ref::<String>().map(String::as_str));
-    format!("panicked: {}", text.unwrap_or("without a message"))
 }

@@ -2,6 +2,9 @@
 //! batch and a plan; waits for nothing and writes nothing.
 
 mod contest;
+mod part;
+#[cfg(test)]
+mod policy_tests;
 #[cfg(test)]
 mod proof_tests;
 mod record;
@@ -9,6 +12,8 @@ mod scenario;
 mod stored;
 #[cfg(test)]
 mod tests;
+mod watch;
 
-pub use contest::{Contest, PlanError, Solve, plan};
+pub use contest::{Contest, PlanError, Planned, Solve, plan};
+pub use part::PolicyPart;
 pub use stored::{Unreadable, stored};

@@ -36,7 +36,7 @@ async fn what_is_proven_is_stored_and_recorded() {
     bench.submit("s1").await;
     let batch = closed(&bench).await;
     let contest = Contest { solve: proves, ..contest(&bench, SolverName::Exact) };
-    let new = plan(&batch, &contest).unwrap();
+    let new = plan(&batch, &contest).unwrap().new;
     assert_eq!((new.status, new.bound, new.gap()), (Status::Optimal, Some(1.0), Some(0.0)));
     let envelope = unpacked(&new.envelope);
     assert_eq!(
@@ -67,7 +67,7 @@ async fn a_proof_that_the_check_refuses_gives_way_to_the_next() {
     ];
     for (solve, refused) in liars {
         let contest = Contest { solve, ..contest(&bench, SolverName::Exact) };
-        let new = plan(&batch, &contest).unwrap();
+        let new = plan(&batch, &contest).unwrap().new;
         assert_eq!((new.status, new.bound, new.stops.len()), (Status::Feasible, None, 2));
         let provenance = &unpacked(&new.envelope)["provenance"];
         let reason = provenance["fallback_reason"].as_str().unwrap();

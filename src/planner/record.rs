@@ -10,6 +10,7 @@ use voltour_solver::plan::{Plan, Stop};
 use voltour_solver::scenario::{Document, FORMAT, Scenario};
 
 use super::contest::{Contest, PlanError, Winner};
+use super::part::PolicyPart;
 use crate::clock::plus;
 use crate::domain::{Contender, PhaseIterations, Provenance, Request, Versions};
 use crate::store::{Batch, NewPlan, NewStop, pack};
@@ -27,8 +28,9 @@ pub(super) fn record(
     document: &Document,
     scenario: &Scenario,
     winner: Winner,
+    policy: &PolicyPart,
 ) -> Result<NewPlan, PlanError> {
-    let provenance = provenance(batch, contest, &winner);
+    let provenance = provenance(batch, contest, &winner, policy);
     let plan = winner.outcome.plan;
     let packed = |json: Result<Vec<u8>, serde_json::Error>| {
         let json = json.map_err(|error| PlanError::Record(error.to_string()))?;
@@ -75,7 +77,12 @@ fn new_stop(
     })
 }
 
-fn provenance(batch: &Batch, contest: &Contest, winner: &Winner) -> Provenance {
+fn provenance(
+    batch: &Batch,
+    contest: &Contest,
+    winner: &Winner,
+    policy: &PolicyPart,
+) -> Provenance {
     let Winner { outcome, refused, .. } = winner;
     let contender = |contender: &voltour_solver::solvers::Contender| Contender {
         solver: contender.solver.clone(),
@@ -93,8 +100,8 @@ fn provenance(batch: &Batch, contest: &Contest, winner: &Winner) -> Provenance {
         contenders: outcome.contenders.iter().map(contender).collect(),
         winner: outcome.plan.solver.clone(),
         gap: outcome.plan.gap(),
-        policy: None,
-        fallback_reason: (!refused.is_empty()).then(|| refused.join("; ")),
+        policy: policy.used.clone(),
+        fallback_reason: policy.reason(refused),
         seed: contest.seed,
         iterations: outcome.iterations.iter().map(|(_, iterations)| iterations).sum(),
         phases: outcome.iterations.iter().map(phase).collect(),

@@ -12,7 +12,8 @@ use super::Settings;
 use crate::clock::{Clock, minus, seconds};
 use crate::domain::{Call, CancelDeparture, ClientId, DepartureId, Refusal};
 use crate::metrics::Metrics;
-use crate::planner::{self, Contest, PlanError};
+use crate::planner::{self, Contest, PlanError, Planned, PolicyPart};
+use crate::policy::Shelf;
 use crate::store::{Batch, Cancel, CloseBatch, Closing, StorePlan, Storing, Writer};
 
 /// What is left of the time before second 0 for storing the plan, where the lead has so much to spare.
@@ -24,6 +25,8 @@ pub(super) struct Departing {
     pub writer: Writer,
     pub clock: Arc<dyn Clock>,
     pub settings: Settings,
+    /// The policies in use when a plan begins are its policies.
+    pub policies: Shelf,
     pub metrics: Metrics,
     /// As many batches are planned at once.
     pub planners: Arc<Semaphore>,
@@ -50,7 +53,7 @@ impl Departing {
             let Some(_thread) = self.thread().await else { return Ok(()) };
             let Some(batch) = self.close(id, lead).await? else { return Ok(()) };
             let (start, closed) = (batch.start, self.clock.now());
-            let plan = match self.plan(*batch, lead).await {
+            let Planned { new: plan, policy } = match self.plan(*batch, lead).await {
                 Err(Stuck::Plan(error)) => return self.give_up(id, &error).await,
                 plan => plan?,
             };
@@ -61,6 +64,7 @@ impl Departing {
                     self.metrics.planned(&solver, status, gap, took_s);
                     let status = status.name();
                     tracing::info!(departure = %id, %tour, %start, status, solver, gap, "planned");
+                    self.tell(id, &policy);
                     return Ok(());
                 }
                 Storing::Gone => return Ok(()),
@@ -100,13 +104,14 @@ impl Departing {
         }
     }
 
-    async fn plan(&self, batch: Batch, lead: Duration) -> Result<crate::store::NewPlan, Stuck> {
+    async fn plan(&self, batch: Batch, lead: Duration) -> Result<Planned, Stuck> {
         let budget = self.settings.budget;
         // A lead that is hardly longer than the budget must not end the search before it begins.
         let spare = lead.saturating_sub(budget);
         let contest = Contest {
             solver: self.settings.solver,
             solve,
+            policies: self.policies.current(),
             seed: self.settings.seed,
             budget,
             latest: minus(batch.start, TO_STORE.min(spare / 2)),
@@ -114,6 +119,22 @@ impl Departing {
             cancel: self.cancel.clone(),
         };
         Ok(tokio::task::spawn_blocking(move || planner::plan(&batch, &contest)).await??)
+    }
+
+    /// Logs and counts what part the policy had.
+    fn tell(&self, departure: DepartureId, policy: &PolicyPart) {
+        if let Some((reason, why)) = &policy.fallback {
+            self.metrics.policy_fell_back(*reason);
+            if policy.used.is_some() {
+                tracing::warn!(%departure, %reason, why, "the policy broke down, or built no tour");
+            } else {
+                // What is wrong with a model was a warning when it was loaded.
+                tracing::info!(%departure, %reason, "planned without a policy");
+            }
+        }
+        if let Some(winning) = policy.winning {
+            self.metrics.policy_competed(winning);
+        }
     }
 
     /// A batch without any plan is a defect; its requests must not wait for it.

@@ -12,6 +12,7 @@ use super::departing::Departing;
 use super::{Handle, Settings};
 use crate::clock::Clock;
 use crate::metrics::Metrics;
+use crate::policy::Shelf;
 use crate::store::{Store, StoreError};
 
 /// The running scheduler and its writer.
@@ -41,6 +42,7 @@ pub async fn start(
     store: Store,
     clock: Arc<dyn Clock>,
     settings: Settings,
+    policies: Shelf,
     metrics: Metrics,
     cancel: CancellationToken,
 ) -> Result<(Handle, Running), StoreError> {
@@ -51,7 +53,7 @@ pub async fn start(
     let handle = Handle::new(writer.clone(), reads.clone(), settings.lead, wake.clone());
     let planners = Arc::new(Semaphore::new(settings.planner_threads.clamp(1, 256)));
     let departing =
-        Departing { writer, clock, settings, metrics, planners, cancel: cancel.clone() };
+        Departing { writer, clock, settings, policies, metrics, planners, cancel: cancel.clone() };
     let (busy, under_way, tasks) = (HashMap::new(), JoinSet::new(), HashMap::new());
     let agenda = Agenda { reads, departing, wake, busy, under_way, tasks };
     let task = tokio::spawn(async move {

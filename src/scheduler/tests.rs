@@ -16,6 +16,7 @@ use crate::domain::{
     TourState,
 };
 use crate::metrics::Metrics;
+use crate::policy::{Policies, Shelf};
 use crate::store::Store;
 use crate::store::fixture::{Bench, asks, call, leaves};
 
@@ -35,8 +36,9 @@ async fn run(bench: Bench) -> Service {
 
 async fn started(dir: tempfile::TempDir, clock: Arc<ManualClock>, store: Store) -> Service {
     let settings = Settings { budget: Duration::ZERO, ..Settings::default() };
-    let cancel = CancellationToken::new();
-    let starting = start(store, clock.clone(), settings, Metrics::default(), cancel.clone());
+    let (policies, cancel) = (Shelf::of(Policies::none()), CancellationToken::new());
+    let starting =
+        start(store, clock.clone(), settings, policies, Metrics::default(), cancel.clone());
     let (handle, running) = starting.await.unwrap();
     Service { _dir: dir, clock, handle, running, cancel }
 }
@@ -237,6 +239,7 @@ async fn a_plan_that_comes_late_is_made_again_with_the_lead_that_it_took() {
         writer: store.writer.clone(),
         clock: Arc::new(Slow(clock.clone())),
         settings: Settings { budget: Duration::ZERO, ..Settings::default() },
+        policies: Shelf::of(Policies::none()),
         metrics: Metrics::default(),
         planners: Arc::new(Semaphore::new(1)),
         cancel: CancellationToken::new(),

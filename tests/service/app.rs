@@ -30,7 +30,7 @@ pub struct Settings {
     pub overdue_after: &'static str,
     pub explanation_budget: &'static str,
     /// Further sections.
-    pub more: &'static str,
+    pub more: String,
 }
 
 impl Default for Settings {
@@ -42,7 +42,7 @@ impl Default for Settings {
             max_late: "10m",
             overdue_after: "30m",
             explanation_budget: "2s",
-            more: "",
+            more: String::new(),
         }
     }
 }
@@ -134,6 +134,13 @@ impl TestApp {
             self.child = Some(child);
             self.fail("did not end after SIGTERM")
         })
+    }
+
+    /// Asks the process to load its policies again.
+    pub fn sighup(&self) {
+        let pid = self.child.as_ref().expect("a running server").id().to_string();
+        let sent = Command::new("kill").args(["-HUP", &pid]).status().expect("kill runs");
+        assert!(sent.success(), "SIGHUP was not sent");
     }
 
     /// The database file.

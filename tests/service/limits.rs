@@ -11,7 +11,7 @@ use crate::field::{FIELD, line, put, request, sensor};
 #[tokio::test]
 async fn a_message_that_is_too_long_is_refused() {
     let limits = "[limits]\nmessage_bytes = 65536\n";
-    let app = TestApp::with(Settings { more: limits, ..Settings::default() }).await;
+    let app = TestApp::with(Settings { more: limits.into(), ..Settings::default() }).await;
     let status = app.networks().put(put(line(5000))).await.unwrap_err();
     let refused = matches!(status.code(), Code::OutOfRange | Code::ResourceExhausted);
     assert!(refused, "{status}");
@@ -21,7 +21,7 @@ async fn a_message_that_is_too_long_is_refused() {
 #[tokio::test]
 async fn streams_beyond_the_limit_are_refused_until_one_ends() {
     let limits = "[limits]\nstreams = 2\n";
-    let app = TestApp::with(Settings { more: limits, ..Settings::default() }).await;
+    let app = TestApp::with(Settings { more: limits.into(), ..Settings::default() }).await;
     app.put(line(1)).await;
     let watch = || WatchRequestsRequest { network_id: FIELD.into() };
     let first = app.requests().watch(watch()).await.unwrap();
@@ -42,7 +42,7 @@ async fn streams_beyond_the_limit_are_refused_until_one_ends() {
 #[tokio::test]
 async fn a_stream_longer_than_what_may_be_under_way_is_taken_whole() {
     let limits = "[limits]\nunacknowledged = 3\n";
-    let app = TestApp::with(Settings { more: limits, ..Settings::default() }).await;
+    let app = TestApp::with(Settings { more: limits.into(), ..Settings::default() }).await;
     app.put(line(100)).await;
     let items: Vec<_> = (1..=100).map(|number| request(&sensor(number).id)).collect();
     let answers = app.requests().submit_stream(tokio_stream::iter(items)).await.unwrap();
@@ -56,7 +56,7 @@ async fn a_stream_longer_than_what_may_be_under_way_is_taken_whole() {
 #[tokio::test]
 async fn nobody_waits_longer_than_the_longest_wait() {
     let limits = "[limits]\nlongest_wait = \"1s\"\n";
-    let app = TestApp::with(Settings { more: limits, ..Settings::default() }).await;
+    let app = TestApp::with(Settings { more: limits.into(), ..Settings::default() }).await;
     app.put(line(1)).await;
     let far = voltour::proto::AnnounceRequest {
         t0: crate::time::from_now(3_600_000),

@@ -14,6 +14,10 @@ mod database;
 mod field;
 mod time;
 
+/// Models that keep the contract, and such that break it.
+#[path = "../common/onnx.rs"]
+mod onnx;
+
 mod bad_input;
 mod batch;
 mod crash;
@@ -26,6 +30,7 @@ mod limits;
 mod metrics;
 mod operator;
 mod pages;
+mod policy;
 mod process;
 mod queue;
 mod reopen;

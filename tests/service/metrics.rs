@@ -8,7 +8,7 @@ use crate::field::line;
 use crate::time::until;
 
 /// Everything that is counted, as it stands.
-async fn metrics(app: &TestApp) -> String {
+pub async fn metrics(app: &TestApp) -> String {
     let answer = app.get("/metrics").await;
     let kind = answer.headers()[CONTENT_TYPE].to_str().unwrap();
     assert!(kind.starts_with("application/openmetrics-text"), "{kind}");

@@ -107,6 +107,7 @@ fn a_policy_that_breaks_costs_nothing_but_itself() {
                 let policy = Breaks { problem, after, calls: AtomicUsize::new(0), how };
                 let outcome = solved(&scenario, solver, 300, Some(&policy));
                 assert!(outcome.plan.status.is_feasible(), "{solver} after {after}");
+                assert!(!outcome.plan.stops.is_empty(), "{solver} after {after}: not given up");
                 let calls = policy.calls.load(Ordering::Relaxed);
                 let failed = matches!(outcome.policy, PolicyUse::Failed(_));
                 assert_eq!(failed, calls > after, "{:?} after {after}", outcome.policy);

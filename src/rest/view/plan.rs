@@ -102,7 +102,7 @@ pub(in crate::rest) struct PlanEnvelope {
     /// A document `voltour/plan/1`
     #[schema(value_type = Object)]
     plan: (),
-    /// Solver asked for, contenders, winner, `gap` (|objective - bound| / |bound|, null without a bound), seed, iterations, versions, batch, what the check said
+    /// Solver asked for, contenders, winner, `policy` (name, SHA-256 `digest`, `problem`, `feature_version` of the trained policy that was asked; null where none was), `fallback_reason` (why the plan was made without the policy, `policy: REASON: ...` with one of no_model, damaged, wrong_version, wrong_problem, wrong_shape, not_finite, too_slow, no_tour, failed, and why contenders were refused; null where neither), `gap` (|objective - bound| / |bound|, null without a bound), seed, iterations, versions, batch, what the check said
     #[schema(value_type = Object)]
     provenance: (),
 }

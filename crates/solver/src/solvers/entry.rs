@@ -125,9 +125,14 @@ pub fn solve_compiled(
         SolverName::Dqn => {
             let (found, fared) =
                 dqn::dqn(instance, options.policy, Effort::WHOLE, &mut rng, &mut budget);
+            let mut all: Vec<Found> = found.into_iter().collect();
+            // The policy makes a plan better, never possible: what it left undone is the baseline's.
+            if fared != PolicyUse::Built {
+                let order = all.first().map_or_else(Vec::new, |found| found.order.clone());
+                all.push(baseline::solve(instance, &order, &mut rng, &mut budget));
+            }
             policy = fared;
-            // The policy makes a plan better, never possible.
-            vec![found.unwrap_or_else(|| baseline::solve(instance, &[], &mut rng, &mut budget))]
+            all
         }
         SolverName::Baseline => vec![baseline::solve(instance, &[], &mut rng, &mut budget)],
         SolverName::Greedy => {
