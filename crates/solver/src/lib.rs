@@ -35,6 +35,7 @@
 pub mod check;
 pub mod coverage;
 pub mod explain;
+pub mod framework;
 pub mod gap;
 pub mod generate;
 pub mod instance;

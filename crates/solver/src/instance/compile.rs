@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::{Candidate, DemandSet, Travel, earliest};
 use crate::coverage::{self, Region};
-use crate::scenario::{Objective, Place, Scenario};
+use crate::scenario::{Objective, Place, Point, Scenario};
 use crate::tolerance::{solver_limit, tolerance};
 use crate::tour::Run;
 
@@ -201,6 +201,12 @@ impl<'a> Instance<'a> {
             distance_m: 0.0,
             charge_j: 0.0,
         }
+    }
+
+    /// Where a candidate is at a time, in seconds.
+    pub fn point_at(&self, candidate: u32, time_s: f64) -> Point {
+        let request = self.candidates[candidate as usize].request;
+        self.scenario.sensors[self.scenario.requests[request].sensor].place.at(time_s)
     }
 
     /// Goes on to candidate `to` and charges it; its deadline is not looked at.

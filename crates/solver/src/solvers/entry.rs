@@ -4,9 +4,10 @@ use rand_pcg::Pcg64Mcg;
 use rand_pcg::rand_core::SeedableRng;
 
 use super::plan_of::plan_of;
-use super::{Budget, SolverName, auto, baseline, exact, greedy, random};
+use super::{Budget, SolverName, auto, baseline, dqn, exact, greedy, random};
 use crate::instance::Instance;
 use crate::plan::{Plan, Status};
+use crate::policy::guided::Effort;
 use crate::policy::{QError, QFunction};
 use crate::scenario::{Objective, Scenario};
 use crate::stop::StopRule;
@@ -41,8 +42,10 @@ pub struct Outcome {
 /// How the policy fared in a solve.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum PolicyUse {
-    /// It was not needed, or not passed.
+    /// The solver asked for uses none.
     Unused,
+    /// The solver would have used one, but none was passed.
+    Missing,
     /// It built a feasible tour.
     Built,
     /// It found no feasible tour.
@@ -112,8 +115,20 @@ pub fn solve_compiled(
         iterations: vec![(phase.to_owned(), budget.iterations())],
         claim: Claim::None,
     };
+    let mut policy = PolicyUse::Unused;
     let found = match options.solver {
-        SolverName::Auto => auto::auto(instance, &mut rng, &mut budget),
+        SolverName::Auto => {
+            let (found, fared) = auto::auto(instance, options.policy, &mut rng, &mut budget);
+            policy = fared;
+            found
+        }
+        SolverName::Dqn => {
+            let (found, fared) =
+                dqn::dqn(instance, options.policy, Effort::WHOLE, &mut rng, &mut budget);
+            policy = fared;
+            // The policy makes a plan better, never possible.
+            vec![found.unwrap_or_else(|| baseline::solve(instance, &[], &mut rng, &mut budget))]
+        }
         SolverName::Baseline => vec![baseline::solve(instance, &[], &mut rng, &mut budget)],
         SolverName::Greedy => {
             vec![single(greedy::greedy(instance, &mut budget), "insertion", &budget)]
@@ -127,19 +142,16 @@ pub fn solve_compiled(
         SolverName::Exact => {
             vec![exact::solve(instance, &[], exact::Effort::Whole, &mut rng, &mut budget)]
         }
-        SolverName::Dqn
-        | SolverName::Acs
-        | SolverName::Dp
-        | SolverName::Mst
-        | SolverName::Cmst
-        | SolverName::App => return Err(Unavailable(options.solver)),
+        SolverName::Acs | SolverName::Dp | SolverName::Mst | SolverName::Cmst | SolverName::App => {
+            return Err(Unavailable(options.solver));
+        }
     };
-    Ok(outcome(instance, &found))
+    Ok(outcome(instance, &found, policy))
 }
 
 /// The plan of the best tour found, the earlier among equals; each solver is a contender. What one has
 /// proven holds for the tours of all.
-fn outcome(instance: &Instance<'_>, all: &[Found]) -> Outcome {
+fn outcome(instance: &Instance<'_>, all: &[Found], policy: PolicyUse) -> Outcome {
     let value = |found: &Found| Value::of(instance, &Tour::new(instance, &found.order));
     let best = all.iter().min_by(|a, b| value(a).compare(&value(b)));
     let plan = |found: &Found| {
@@ -162,7 +174,7 @@ fn outcome(instance: &Instance<'_>, all: &[Found]) -> Outcome {
         plan: best.map_or_else(|| plan_of(instance, &[], SolverName::Auto.name()), plan),
         iterations: all.iter().flat_map(|found| found.iterations.clone()).collect(),
         contenders: all.iter().map(contender).collect(),
-        policy: PolicyUse::Unused,
+        policy,
     }
 }
 

@@ -6,6 +6,7 @@
 mod auto;
 mod baseline;
 mod budget;
+mod dqn;
 mod entry;
 mod enumerate;
 pub mod exact;
@@ -23,3 +24,4 @@ pub use entry::{
     solve_compiled,
 };
 pub use name::{SolverName, UnknownSolver};
+pub(crate) use partial::{Partial, gain};

@@ -92,7 +92,7 @@ impl Tour {
     }
 
     /// Metres by which a candidate lengthens the way.
-    fn detour_m(&self, instance: &Instance<'_>, position: usize, candidate: u32) -> f64 {
+    pub(crate) fn detour_m(&self, instance: &Instance<'_>, position: usize, candidate: u32) -> f64 {
         let (from, to) = (self.place_before(instance, position), self.place(instance, position));
         let via = candidate as usize;
         instance.distance_m(from, via) + instance.distance_m(via, to)

@@ -9,12 +9,14 @@ mod run;
 mod segment;
 mod sequence;
 mod value;
+mod visit;
 
 pub use insertion::Insertion;
 pub use run::{Run, simulate};
 pub use segment::Segment;
 pub use sequence::Tour;
 pub use value::Value;
+pub(crate) use visit::Visit;
 
 #[cfg(test)]
 mod tests;

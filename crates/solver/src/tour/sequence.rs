@@ -232,6 +232,11 @@ impl Tour {
         &self.runs[position]
     }
 
+    /// The charger after the last stop, where that is kept.
+    pub(super) fn after_last(&self) -> Option<&Run> {
+        self.runs.last().filter(|_| self.runs.len() > self.order.len())
+    }
+
     /// When charging begins at a position, the arrival at the end behind the last.
     pub(super) fn arrive_s(&self, position: usize) -> f64 {
         self.runs.get(position + 1).unwrap_or(&self.finished).arrive_s

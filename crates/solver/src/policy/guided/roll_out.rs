@@ -1,0 +1,58 @@
+//! Roll-outs: one action after the other until the episode is over, many episodes side by side.
+
+use rand::RngExt;
+use rand_pcg::Pcg64Mcg;
+
+use super::Guide;
+use super::guide::best;
+use crate::framework::Episode;
+use crate::policy::QError;
+
+impl<'a> Guide<'a> {
+    /// Takes the best action in each state until all episodes are over.
+    ///
+    /// # Errors
+    /// The Q-function cannot answer.
+    pub fn greedy(&self, episodes: &mut [Episode<'a>]) -> Result<(), QError> {
+        self.roll_out(episodes, |_| 0.0)
+    }
+
+    /// The same with Gumbel noise on each value, so that actions are drawn with probability
+    /// proportional to exp(q / temperature).
+    ///
+    /// # Errors
+    /// The Q-function cannot answer.
+    pub fn sample(
+        &self,
+        episodes: &mut [Episode<'a>],
+        temperature: f64,
+        rng: &mut Pcg64Mcg,
+    ) -> Result<(), QError> {
+        self.roll_out(episodes, |_| {
+            let uniform = rng.random_range(1e-12..1.0_f64);
+            (-temperature * (-uniform.ln()).ln()) as f32
+        })
+    }
+
+    fn roll_out(
+        &self,
+        episodes: &mut [Episode<'a>],
+        mut noise: impl FnMut(f32) -> f32,
+    ) -> Result<(), QError> {
+        loop {
+            let mut live: Vec<&mut Episode<'a>> =
+                episodes.iter_mut().filter(|episode| !episode.is_over()).collect();
+            if live.is_empty() {
+                return Ok(());
+            }
+            let shared: Vec<&Episode<'a>> = live.iter().map(|episode| &**episode).collect();
+            let values = self.values(&shared)?;
+            for (episode, mut values) in live.iter_mut().zip(values) {
+                values.iter_mut().for_each(|value| *value += noise(*value));
+                if let Some(action) = best(&values) {
+                    episode.act(action);
+                }
+            }
+        }
+    }
+}

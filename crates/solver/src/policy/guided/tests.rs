@@ -1,0 +1,99 @@
+use rand_pcg::Pcg64Mcg;
+use rand_pcg::rand_core::SeedableRng;
+
+use super::{Effort, Guide, Kept, Rule};
+use crate::framework::definition;
+use crate::framework::tests::drawn;
+use crate::instance::Instance;
+use crate::policy::Problem;
+use crate::scenario::{Document, Scenario};
+use crate::solvers::Budget;
+use crate::stop::MaxIterations;
+use crate::tour::{Tour, Value};
+
+/// Asks a guide by the rule.
+fn guided<T>(document: &Document, ask: impl FnOnce(&Guide<'_>) -> T) -> T {
+    let scenario = Scenario::from_document(document).unwrap();
+    let instance = Instance::new(&scenario);
+    let problem = Problem::of(scenario.objective);
+    ask(&Guide::new(&instance, definition(problem), &Rule(problem)))
+}
+
+/// The best value that an effort gives.
+fn best(document: &Document, effort: Effort) -> (Value, u64) {
+    guided(document, |guide| {
+        let mut kept = Kept::nothing(guide.instance);
+        let mut rng = Pcg64Mcg::seed_from_u64(1);
+        let mut budget = Budget::new(&MaxIterations(1_000));
+        guide.construct(effort, &mut rng, &mut budget, &mut kept).unwrap();
+        let tour = Tour::new(guide.instance, &kept.order);
+        assert!(tour.is_legal());
+        assert_eq!(
+            Value::of(guide.instance, &tour).compare(&kept.value),
+            std::cmp::Ordering::Equal
+        );
+        (kept.value, kept.roll_outs)
+    })
+}
+
+#[test]
+fn a_beam_of_one_is_the_greedy_roll_out() {
+    for seed in 0..10 {
+        for document in drawn(seed) {
+            guided(&document, |guide| {
+                let mut greedy = [guide.begin()];
+                guide.greedy(&mut greedy).unwrap();
+                let beam = guide.beam(1).unwrap();
+                assert_eq!(beam.len(), 1);
+                assert_eq!(beam[0].order(), greedy[0].order());
+            });
+        }
+    }
+}
+
+#[test]
+fn cold_samples_are_greedy_and_hot_ones_differ() {
+    let [document, ..] = drawn(2);
+    guided(&document, |guide| {
+        let mut greedy = [guide.begin()];
+        guide.greedy(&mut greedy).unwrap();
+        let mut rng = Pcg64Mcg::seed_from_u64(5);
+        let mut cold = vec![guide.begin(); 4];
+        guide.sample(&mut cold, 0.0, &mut rng).unwrap();
+        assert!(cold.iter().all(|end| end.order() == greedy[0].order()));
+        let mut hot = vec![guide.begin(); 8];
+        guide.sample(&mut hot, 1.0, &mut rng).unwrap();
+        assert!(hot.iter().any(|end| end.order() != hot[0].order()));
+    });
+}
+
+#[test]
+fn every_part_only_adds() {
+    let parts = [
+        Effort { beam: 8, ..Effort::GREEDY },
+        Effort { look_ahead: 4, ..Effort::GREEDY },
+        Effort { samples: 20, temperature: 0.3, ..Effort::GREEDY },
+        Effort { orders: 16, ..Effort::GREEDY },
+    ];
+    let mut gained = [0; 4];
+    for seed in 0..15 {
+        for document in drawn(seed) {
+            let (greedy, one) = best(&document, Effort::GREEDY);
+            assert_eq!(one, 1);
+            for (part, gained) in parts.iter().zip(&mut gained) {
+                let (value, _) = best(&document, *part);
+                assert!(!greedy.beats(&value), "{part:?}");
+                *gained += usize::from(value.beats(&greedy));
+            }
+        }
+    }
+    assert!(gained.iter().all(|&gained| gained > 0), "each part must help somewhere: {gained:?}");
+}
+
+#[test]
+fn the_whole_effort_is_at_most_32_roll_outs() {
+    for document in drawn(4) {
+        let (_, roll_outs) = best(&document, Effort::WHOLE);
+        assert!((2..=32).contains(&roll_outs), "{roll_outs}");
+    }
+}
