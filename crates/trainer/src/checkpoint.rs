@@ -6,11 +6,13 @@ use std::path::Path;
 
 use safetensors::tensor::{Dtype, SafeTensors, TensorView};
 use serde::{Deserialize, Serialize};
+use serde_json::json;
 
-use crate::dqn::{Adam, Options};
+use crate::dqn::{Adam, Device, Learner, Options};
 use crate::error::{Error, Result};
 use crate::file::write_atomically;
-use crate::network::Weights;
+use crate::network::{Network, Weights};
+use crate::onnx::{Metadata, Model};
 use crate::report::Point;
 
 const KEY: &str = "voltour.training";
@@ -63,15 +65,15 @@ impl Checkpoint {
             ("adam.second", &self.adam.second),
         ];
         let bytes = arrays.map(|(name, values)| (name, little_endian(values)));
-        let view = |(name, bytes): &'_ (&'static str, Vec<u8>)| {
-            TensorView::new(Dtype::F32, vec![bytes.len() / 4], bytes)
-                .map(|view| (*name, view))
-                .map_err(|e| Error::format(path, e))
-        };
-        let views: Vec<_> = bytes.iter().map(view).collect::<Result<_>>()?;
+        let mut views = Vec::with_capacity(bytes.len());
+        for (name, bytes) in &bytes {
+            let view = TensorView::new(Dtype::F32, vec![bytes.len() / 4], bytes);
+            views.push((*name, view.map_err(|e| Error::format(path, e))?));
+        }
         let run = serde_json::to_string(&self.run).map_err(|e| Error::format(path, e))?;
         let metadata = HashMap::from([(KEY.to_owned(), run)]);
-        let file = safetensors::serialize(views, Some(metadata)).map_err(|e| Error::format(path, e))?;
+        let file =
+            safetensors::serialize(views, Some(metadata)).map_err(|e| Error::format(path, e))?;
         write_atomically(path, &file)
     }
 
@@ -84,9 +86,43 @@ impl Checkpoint {
         Self::read(&file).map_err(|reason| Error::format(path, reason))
     }
 
+    /// The model of the best network, or of the last.
+    pub fn model(&self, last: bool) -> Model {
+        let Run { options, steps, seconds, curve, .. } = &self.run;
+        let best = curve.iter().min_by(|a, b| a.cost().total_cmp(&b.cost()));
+        let taken = if last { curve.last() } else { best };
+        let training = json!({
+            "command": self.run.command,
+            "seed": options.seed,
+            "steps": taken.map_or(*steps, |point| point.step),
+            "seconds": seconds.round(),
+            "options": options,
+        });
+        let evaluation = taken.map_or_else(|| json!({}), |point| json!({ "validation": point }));
+        let metadata = Metadata {
+            problem: self.run.problem.clone(),
+            training: training.to_string(),
+            evaluation: evaluation.to_string(),
+        };
+        let weights = if last { &self.weights } else { &self.best };
+        Model { weights: weights.clone(), metadata }
+    }
+
+    /// The learner to go on with.
+    ///
+    /// # Errors
+    /// The device cannot be opened.
+    pub fn learner(&self, device: Device) -> Result<Learner> {
+        let mut learner = Learner::new(self.weights.clone(), device)?;
+        learner.target = Network::new(self.target.clone());
+        learner.adam = self.adam.clone();
+        Ok(learner)
+    }
+
     fn read(file: &[u8]) -> std::result::Result<Self, String> {
         let (_, header) = SafeTensors::read_metadata(file).map_err(|e| e.to_string())?;
-        let text = header.metadata().as_ref().and_then(|m| m.get(KEY)).ok_or(format!("no {KEY}"))?;
+        let text =
+            header.metadata().as_ref().and_then(|m| m.get(KEY)).ok_or(format!("no {KEY}"))?;
         let run: Run = serde_json::from_str(text).map_err(|e| format!("{KEY}: {e}"))?;
         let shape = run.options.shape().checked().map_err(|e| e.to_string())?;
         let tensors = SafeTensors::deserialize(file).map_err(|e| e.to_string())?;
@@ -100,10 +136,18 @@ impl Checkpoint {
             }
         };
         let weights = |name: &str| {
-            Weights::from_values(shape.clone(), array(name)?).ok_or_else(|| format!("{name}: wrong size"))
+            Weights::from_values(shape.clone(), array(name)?)
+                .ok_or_else(|| format!("{name}: wrong size"))
         };
-        let adam = Adam { first: array("adam.first")?, second: array("adam.second")?, steps: run.steps };
-        Ok(Self { weights: weights("weights")?, target: weights("target")?, best: weights("best")?, adam, run })
+        let adam =
+            Adam { first: array("adam.first")?, second: array("adam.second")?, steps: run.steps };
+        Ok(Self {
+            weights: weights("weights")?,
+            target: weights("target")?,
+            best: weights("best")?,
+            adam,
+            run,
+        })
     }
 }
 

@@ -13,7 +13,8 @@ pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<()> {
     let directory = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let write = || {
         std::fs::create_dir_all(directory)?;
-        let mut file = tempfile::Builder::new().prefix(".").suffix(".part").tempfile_in(directory)?;
+        let mut file =
+            tempfile::Builder::new().prefix(".").suffix(".part").tempfile_in(directory)?;
         file.write_all(bytes)?;
         file.as_file().sync_all()?;
         file.persist(path).map_err(|e| e.error)?;

@@ -7,9 +7,10 @@
 pub mod checkpoint;
 pub mod dqn;
 pub mod error;
-mod file;
+pub mod file;
 pub mod network;
 pub mod onnx;
 pub mod report;
+pub mod scenarios;
 
 pub use error::{Error, Result};

@@ -7,5 +7,5 @@ use clap::Parser;
 mod cli;
 
 fn main() -> ExitCode {
-    cli::run(cli::Command::parse())
+    cli::run(cli::Cli::parse())
 }

@@ -30,7 +30,8 @@ impl Adam {
         let exponent = i32::try_from(self.steps).unwrap_or(i32::MAX);
         let correction = (1.0 - BETA_2.powi(exponent)).sqrt();
         let rate = (rate * correction / (1.0 - BETA_1.powi(exponent))) as f32;
-        let (beta_1, beta_2, epsilon) = (BETA_1 as f32, BETA_2 as f32, (EPSILON * correction) as f32);
+        let (beta_1, beta_2, epsilon) =
+            (BETA_1 as f32, BETA_2 as f32, (EPSILON * correction) as f32);
         let moments = self.first.iter_mut().zip(&mut self.second);
         for ((parameter, g), (first, second)) in parameters.iter_mut().zip(gradient).zip(moments) {
             *first += (1.0 - beta_1) * (g - *first);

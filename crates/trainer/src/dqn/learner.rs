@@ -1,12 +1,13 @@
 //! [`Learner`]: steps the parameters towards the targets of a batch.
 
+use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
-use voltour_solver::policy::QFunction;
+use voltour_solver::policy::{Batch, Encoding};
 
 use crate::error::{Error, Result};
 use crate::network::{Differentiable, Network, Target, Weights};
 
-use super::{Adam, Options, Sample, State, clip, learning_rate};
+use super::{Adam, Options, Sample, clip, learning_rate};
 
 /// Where gradients are computed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum, Serialize, Deserialize)]
@@ -30,7 +31,9 @@ impl Device {
             #[cfg(feature = "cuda")]
             Self::Cuda => Ok(burn::tensor::Device::cuda(0)),
             #[cfg(not(feature = "cuda"))]
-            Self::Cuda => Err(Error::Device("this build has no cuda; build with --features cuda".to_owned())),
+            Self::Cuda => {
+                Err(Error::Device("this build has no cuda; build with --features cuda".to_owned()))
+            }
         }
     }
 }
@@ -66,15 +69,15 @@ impl Learner {
     /// A number is not finite.
     pub fn learn(&mut self, samples: &[&Sample], options: &Options) -> Result<f64> {
         let step = self.adam.steps;
-        let finite = |what, holds| if holds { Ok(()) } else { Err(Error::NotFinite { what, step }) };
-        let after = self.bootstraps(samples)?;
+        let finite =
+            |what, holds| if holds { Ok(()) } else { Err(Error::NotFinite { what, step }) };
+        let after = self.bootstraps(samples);
         let mut order: Vec<usize> = (0..samples.len()).collect();
         order.sort_by_key(|i| samples[*i].state.rows());
         let mut gradient = vec![0.0; self.network.weights().values().len()];
         let mut loss = 0.0;
         for group in order.chunks(samples.len().div_ceil(options.groups).max(1)) {
-            let states: Vec<&State> = group.iter().map(|i| &*samples[*i].state).collect();
-            let batch = State::batch(&states);
+            let batch = Batch::pack(group.iter().map(|i| &*samples[*i].state));
             let mut target = Target {
                 values: vec![0.0; batch.mask.len()],
                 weights: vec![0.0; batch.mask.len()],
@@ -88,9 +91,11 @@ impl Learner {
                     target.weights[at] = 1.0 / (labels.len() * samples.len()) as f32;
                 }
             }
-            target.differences *= f32::from(u8::from(group.iter().any(|i| samples[*i].labels.len() > 1)));
+            target.differences *=
+                f32::from(u8::from(group.iter().any(|i| samples[*i].labels.len() > 1)));
             finite("a target", target.values.iter().all(|y| y.is_finite()))?;
-            let (part, slope) = self.differentiable.gradient(self.network.weights(), &batch, &target)?;
+            let (part, slope) =
+                self.differentiable.gradient(self.network.weights(), &batch, &target)?;
             loss += f64::from(part);
             gradient.iter_mut().zip(slope).for_each(|(sum, g)| *sum += g);
         }
@@ -107,24 +112,11 @@ impl Learner {
 
     /// For each sample the value of the state after it: the target network's, of the action that the acting
     /// network finds best (van Hasselt, Guez and Silver 2016); 0 where nothing follows.
-    fn bootstraps(&self, samples: &[&Sample]) -> Result<Vec<f32>> {
-        let mut after = vec![0.0; samples.len()];
-        let next = |(i, s): (usize, &&Sample)| s.bootstrap.clone().map(|state| (i, state));
-        let next: Vec<_> = samples.iter().enumerate().filter_map(next).collect();
-        if next.is_empty() {
-            return Ok(after);
-        }
-        let states: Vec<&State> = next.iter().map(|(_, state)| &**state).collect();
-        let batch = State::batch(&states);
-        let failed = |_| Error::NotFinite { what: "a value", step: self.adam.steps };
-        let online = self.network.values(&batch).map_err(failed)?;
-        let target = self.target.values(&batch).map_err(failed)?;
-        let rows = |q: &'_ [f32], row: usize| q[row * batch.rows..(row + 1) * batch.rows].to_vec();
-        for (row, (i, state)) in next.iter().enumerate() {
-            if let Some(action) = super::best(state, &rows(&online, row)) {
-                after[*i] = rows(&target, row)[action as usize];
-            }
-        }
-        Ok(after)
+    fn bootstraps(&self, samples: &[&Sample]) -> Vec<f32> {
+        let value = |state: &Encoding| {
+            let row = super::best(state, &self.network.values_of(state));
+            row.map_or(0.0, |row| self.target.values_of(state)[row])
+        };
+        samples.par_iter().map(|s| s.bootstrap.as_deref().map_or(0.0, value)).collect()
     }
 }

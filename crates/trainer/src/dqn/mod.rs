@@ -23,30 +23,28 @@
 
 mod actors;
 mod adam;
-mod episode;
 mod greedy;
 mod learner;
 mod options;
+mod pool;
 mod random;
 mod replay;
 mod rollouts;
 mod sample;
 mod schedule;
-mod state;
 mod training;
 mod trajectory;
 mod validation;
 
 pub use adam::{Adam, clip};
-pub use episode::{Episode, Outcome, Source};
 pub use greedy::{best, complete};
 pub use learner::{Device, Learner};
 pub use options::{Options, Targets};
+pub use pool::{Play, Pool};
 pub use random::{index, stream, unit};
 pub use replay::Replay;
 pub use sample::Sample;
 pub use schedule::{epsilon, learning_rate};
-pub use state::State;
 pub use training::{Progress, Training};
 pub use trajectory::Trajectory;
-pub use validation::{Score, Trial, validate};
+pub use validation::{Score, Trial, trials, validate};

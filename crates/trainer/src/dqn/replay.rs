@@ -40,7 +40,11 @@ impl Replay {
     }
 
     /// `count` samples, each drawn from all; none from an empty memory.
-    pub fn draw<'a>(&'a self, count: usize, rng: &mut Pcg64Mcg) -> impl Iterator<Item = &'a Sample> {
+    pub fn draw<'a>(
+        &'a self,
+        count: usize,
+        rng: &mut Pcg64Mcg,
+    ) -> impl Iterator<Item = &'a Sample> {
         let count = if self.is_empty() { 0 } else { count };
         (0..count).map(move |_| &self.samples[index(rng, self.samples.len())])
     }

@@ -4,43 +4,45 @@ use std::sync::Arc;
 
 use rand_pcg::Pcg64Mcg;
 use rayon::prelude::*;
+use voltour_solver::policy::Encoding;
 
 use crate::network::Network;
 
 use super::random::index;
-use super::{Episode, Options, Sample, complete};
+use super::{Options, Play, Sample, complete};
 
 /// Tries out the best few actions of each episode's state and some others, each completed greedily. States with
 /// fewer than two actions tell nothing and are left out.
-pub fn rollouts<E: Episode>(
+pub fn rollouts(
     network: &Network,
-    episodes: &[E],
+    plays: &[Play<'_>],
     options: &Options,
     rng: &mut Pcg64Mcg,
 ) -> Vec<Sample> {
     let mut trials = Vec::new();
     let mut samples = Vec::new();
-    for episode in episodes {
-        let state = Arc::new(episode.state());
-        if state.actions.len() < 2 {
+    for play in plays {
+        let state = Arc::new(play.encode());
+        let mut rows: Vec<usize> =
+            (0..state.rows()).filter(|r| state.actions[*r].is_some()).collect();
+        if rows.len() < 2 {
             continue;
         }
-        let values = network.values_of(&state.nodes, &state.edges);
-        let mut actions = state.actions.clone();
-        actions.sort_by(|a, b| values[*b as usize].total_cmp(&values[*a as usize]));
-        let mut others = actions.split_off(options.rollout_best.min(actions.len()));
+        let values = network.values_of(&state);
+        rows.sort_by(|a, b| values[*b].total_cmp(&values[*a]));
+        let mut others = rows.split_off(options.rollout_best.min(rows.len()));
         for _ in 0..options.rollout_random.min(others.len()) {
-            actions.push(others.swap_remove(index(rng, others.len())));
+            rows.push(others.swap_remove(index(rng, others.len())));
         }
-        trials.extend(actions.into_iter().map(|action| (samples.len(), episode, action)));
+        trials.extend(rows.into_iter().map(|row| (samples.len(), play, row, Arc::clone(&state))));
         samples.push(Sample { state, labels: Vec::new(), bootstrap: None });
     }
-    let play = |(sample, episode, action): &(usize, &E, u32)| {
-        let mut episode = (*episode).clone();
-        let reward = episode.act(*action as usize);
-        (*sample, (*action, reward + complete(network, &mut episode)))
+    let label = |(sample, play, row, state): &(usize, &Play<'_>, usize, Arc<Encoding>)| {
+        let mut play = (*play).clone();
+        let reward = play.act(state, *row);
+        (*sample, (*row as u32, reward + complete(network, &mut play)))
     };
-    let labels: Vec<(usize, (u32, f32))> = trials.par_iter().map(play).collect();
+    let labels: Vec<(usize, (u32, f32))> = trials.par_iter().map(label).collect();
     labels.into_iter().for_each(|(sample, label)| samples[sample].labels.push(label));
     samples
 }

@@ -8,19 +8,19 @@ use crate::network::Weights;
 use super::actors::Actors;
 use super::random::stream;
 use super::rollouts::rollouts;
-use super::{Device, Learner, Options, Replay, Sample, Source, Targets, epsilon};
+use super::{Device, Learner, Options, Play, Pool, Replay, Sample, Targets, epsilon};
 
 const BATCHES: u64 = 3;
 const ROLLOUTS: u64 = 4;
 
 /// A training in progress.
-pub struct Training<S: Source> {
+pub struct Training<'a> {
     /// What it follows.
     pub options: Options,
     /// The parameters.
     pub learner: Learner,
-    source: S,
-    actors: Actors<S::Episode>,
+    pool: Pool<'a>,
+    actors: Actors<'a>,
     replay: Replay,
     tried: Replay,
     demonstrations: Vec<Sample>,
@@ -39,14 +39,14 @@ pub struct Progress {
     pub total: Option<f64>,
 }
 
-impl<S: Source> Training<S> {
+impl<'a> Training<'a> {
     /// A training that begins with random parameters.
     ///
     /// # Errors
-    /// An option has no meaning, no scenario can be drawn, or the device cannot be opened.
-    pub fn new(options: Options, source: S, device: Device) -> Result<Self> {
+    /// An option has no meaning, or the device cannot be opened.
+    pub fn new(options: Options, pool: Pool<'a>, device: Device) -> Result<Self> {
         let weights = Weights::random(options.shape(), options.seed);
-        Self::resume(options, source, Learner::new(weights, device)?, 0)
+        Self::resume(options, pool, Learner::new(weights, device)?, 0)
     }
 
     /// A training that goes on with a learner after `rounds` steps of its episodes. The replay memory is empty and
@@ -54,11 +54,11 @@ impl<S: Source> Training<S> {
     ///
     /// # Errors
     /// As [`Self::new`].
-    pub fn resume(options: Options, source: S, learner: Learner, rounds: u64) -> Result<Self> {
+    pub fn resume(options: Options, pool: Pool<'a>, learner: Learner, rounds: u64) -> Result<Self> {
         let options = options.checked()?;
-        let actors = Actors::new(&source, options.episodes, options.seed, rounds)?;
+        let actors = Actors::new(&pool, options.episodes, options.seed, rounds);
         let (replay, tried) = (Replay::new(options.replay), Replay::new(options.rollout_replay));
-        Ok(Self { options, learner, source, actors, replay, tried, demonstrations: Vec::new() })
+        Ok(Self { options, learner, pool, actors, replay, tried, demonstrations: Vec::new() })
     }
 
     /// Tours of the exact solver to learn from.
@@ -79,7 +79,7 @@ impl<S: Source> Training<S> {
     /// One step of every episode, then some gradient steps.
     ///
     /// # Errors
-    /// A number is not finite, or no scenario can be drawn.
+    /// A number is not finite.
     pub fn advance(&mut self) -> Result<Progress> {
         let options = &self.options;
         let epsilon = epsilon(options, self.learner.adam.steps as f64 / options.steps as f64);
@@ -87,9 +87,9 @@ impl<S: Source> Training<S> {
             Targets::Mc => None,
             Targets::NStep => Some(options.horizon),
         };
-        let ended = self.actors.step(&self.source, &self.learner.network, epsilon)?;
+        let ended = self.actors.step(&self.pool, &self.learner.network, epsilon);
         for sample in ended.iter().flat_map(|trajectory| trajectory.samples(horizon)) {
-            if !sample.state.is_finite() {
+            if !sample.state.nodes.iter().all(|f| f.is_finite()) {
                 return Err(Error::NotFinite { what: "a feature", step: self.learner.adam.steps });
             }
             self.replay.push(sample);
@@ -112,12 +112,11 @@ impl<S: Source> Training<S> {
             let mut rng = stream(options.seed, BATCHES, self.learner.adam.steps);
             let shown = (options.demonstrations * options.batch as f64).round() as usize;
             let shown = if self.demonstrations.is_empty() { 0 } else { shown };
-            let mut samples: Vec<&Sample> = self.replay.draw(options.batch - shown, &mut rng).collect();
-            samples.extend(
-                (0..shown).map(|_| {
-                    &self.demonstrations[super::random::index(&mut rng, self.demonstrations.len())]
-                }),
-            );
+            let mut samples: Vec<&Sample> =
+                self.replay.draw(options.batch - shown, &mut rng).collect();
+            samples.extend((0..shown).map(|_| {
+                &self.demonstrations[super::random::index(&mut rng, self.demonstrations.len())]
+            }));
             samples.extend(self.tried.draw(options.rollout_batch, &mut rng));
             sum += self.learner.learn(&samples, options)?;
             steps += 1;
@@ -129,10 +128,10 @@ impl<S: Source> Training<S> {
     fn try_out(&mut self) {
         let (options, round) = (&self.options, self.actors.rounds());
         let count = options.rollout_states as u64;
-        let episodes: Vec<S::Episode> =
-            (0..count).map(|i| self.actors.episode(round * count + i).clone()).collect();
+        let plays: Vec<Play<'a>> =
+            (0..count).map(|i| self.actors.play(round * count + i).clone()).collect();
         let mut rng = stream(options.seed, ROLLOUTS, round);
-        let samples = rollouts(&self.learner.network, &episodes, options, &mut rng);
+        let samples = rollouts(&self.learner.network, &plays, options, &mut rng);
         samples.into_iter().for_each(|sample| self.tried.push(sample));
     }
 }

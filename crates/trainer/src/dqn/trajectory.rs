@@ -2,17 +2,19 @@
 
 use std::sync::Arc;
 
-use super::{Sample, State};
+use voltour_solver::policy::Encoding;
+
+use super::Sample;
 
 /// The states of an episode with the actions taken in them and their rewards.
 #[derive(Clone, Debug, Default)]
 pub struct Trajectory {
-    steps: Vec<(Arc<State>, u32, f32)>,
+    steps: Vec<(Arc<Encoding>, u32, f32)>,
 }
 
 impl Trajectory {
     /// Adds a step.
-    pub fn push(&mut self, state: Arc<State>, action: u32, reward: f32) {
+    pub fn push(&mut self, state: Arc<Encoding>, action: u32, reward: f32) {
         self.steps.push((state, action, reward));
     }
 

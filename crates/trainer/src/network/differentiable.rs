@@ -48,7 +48,12 @@ impl Differentiable {
     ///
     /// # Errors
     /// The device does not give its numbers back.
-    pub fn gradient(&self, weights: &Weights, batch: &Batch, target: &Target) -> Result<(f32, Vec<f32>)> {
+    pub fn gradient(
+        &self,
+        weights: &Weights,
+        batch: &Batch,
+        target: &Target,
+    ) -> Result<(f32, Vec<f32>)> {
         let parameters: Vec<Tensor<2>> =
             self.parameters(weights).into_iter().map(Tensor::require_grad).collect();
         let q = forward(weights.shape(), &parameters, &Inputs::new(batch, &self.device));
@@ -125,7 +130,8 @@ fn forward(shape: &Shape, parameters: &[Tensor<2>], inputs: &Inputs) -> Tensor<2
     }
 
     let pool = Tensor::cat(vec![mean_of(columns.clone()), mean_of(tour(inputs) * columns)], 1);
-    let state = pool.matmul(h.clone().reshape([b, n, p])).reshape([b, 2 * p]).matmul(part(head + 1));
+    let state =
+        pool.matmul(h.clone().reshape([b, n, p])).reshape([b, 2 * p]).matmul(part(head + 1));
     let state: Tensor<3> = (state + part(head + 2)).unsqueeze_dim(1);
     let g = relu(h.matmul(part(head)).reshape([b, n, p]) + state);
     let after = g.reshape([b * n, p]).matmul(part(head + 3)) + part(head + 4);
@@ -160,5 +166,5 @@ fn tensor<const D: usize>(values: &[f32], size: [usize; D], device: &Device) -> 
 }
 
 fn numbers<const D: usize>(tensor: Tensor<D>) -> Result<Vec<f32>> {
-    tensor.into_data().to_vec::<f32>().map_err(|e| Error::Device(format!("{e:?}")))
+    tensor.into_data().try_to_vec::<f32>().map_err(|e| Error::Device(format!("{e:?}")))
 }

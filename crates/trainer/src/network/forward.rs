@@ -7,7 +7,7 @@ use std::cell::RefCell;
 
 use nalgebra::{DMatrixView, DMatrixViewMut};
 use rayon::prelude::*;
-use voltour_solver::policy::{Batch, FEATURES, IN_TOUR, QError, QFunction, REWARD};
+use voltour_solver::policy::{Batch, Encoding, FEATURES, IN_TOUR, QError, QFunction, REWARD};
 
 use super::Weights;
 use super::kernel::kernel;
@@ -50,9 +50,19 @@ impl Network {
         &mut self.weights
     }
 
-    /// `q [N]` of one state without padding: `nodes [N, F]`, `edges [N, N]`.
-    pub fn values_of(&self, nodes: &[f32], edges: &[f32]) -> Vec<f32> {
-        ROOM.with_borrow_mut(|room| self.compute(nodes, edges, room))
+    /// `q`, a value a row, of one state.
+    pub fn values_of(&self, state: &Encoding) -> Vec<f32> {
+        ROOM.with_borrow_mut(|room| {
+            let mut edges = std::mem::take(&mut room.edges);
+            edges.clear();
+            for from in &state.places {
+                let line = &state.edges.values[*from as usize * state.edges.size..];
+                edges.extend(state.places.iter().map(|to| line[*to as usize]));
+            }
+            let values = self.compute(&state.nodes, &edges, room);
+            room.edges = edges;
+            values
+        })
     }
 
     fn compute(&self, nodes: &[f32], edges: &[f32], room: &mut Room) -> Vec<f32> {

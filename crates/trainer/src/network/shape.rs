@@ -56,10 +56,21 @@ impl Shape {
         let rule = |name, value: String, rule, holds: bool| {
             if holds { Ok(()) } else { Err(Error::Option { name, value, rule }) }
         };
-        rule("width", self.width.to_string(), "must be 1 to 1024", (1..=1024).contains(&self.width))?;
+        rule(
+            "width",
+            self.width.to_string(),
+            "must be 1 to 1024",
+            (1..=1024).contains(&self.width),
+        )?;
         rule("rounds", self.rounds.to_string(), "must be at most 16", self.rounds <= 16)?;
-        let scales = self.kernels.iter().all(|s| s.is_finite() && *s > 0.0) && self.kernels.len() <= 8;
-        rule("kernels", format!("{:?}", self.kernels), "must be at most 8 positive numbers", scales)?;
+        let scales =
+            self.kernels.iter().all(|s| s.is_finite() && *s > 0.0) && self.kernels.len() <= 8;
+        rule(
+            "kernels",
+            format!("{:?}", self.kernels),
+            "must be at most 8 positive numbers",
+            scales,
+        )?;
         Ok(self)
     }
 

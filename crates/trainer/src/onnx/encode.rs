@@ -4,8 +4,8 @@ use tract_onnx::pb::attribute_proto::AttributeType;
 use tract_onnx::pb::tensor_proto::DataType;
 use tract_onnx::pb::tensor_shape_proto::{Dimension, dimension};
 use tract_onnx::pb::{
-    AttributeProto, StringStringEntryProto, TensorProto, TensorShapeProto, TypeProto, ValueInfoProto,
-    type_proto,
+    AttributeProto, StringStringEntryProto, TensorProto, TensorShapeProto, TypeProto,
+    ValueInfoProto, type_proto,
 };
 
 /// A size that is known, or a symbol.
@@ -27,7 +27,8 @@ pub fn value(name: &str, sizes: &[Size]) -> ValueInfoProto {
     };
     let shape = TensorShapeProto { dim: sizes.iter().map(dimension).collect() };
     let tensor = type_proto::Tensor { elem_type: DataType::Float as i32, shape: Some(shape) };
-    let kind = TypeProto { value: Some(type_proto::Value::TensorType(tensor)), ..TypeProto::default() };
+    let kind =
+        TypeProto { value: Some(type_proto::Value::TensorType(tensor)), ..TypeProto::default() };
     ValueInfoProto { name: name.to_owned(), r#type: Some(kind), ..ValueInfoProto::default() }
 }
 
@@ -45,7 +46,13 @@ pub fn integers(name: &str, values: &[i64]) -> TensorProto {
 
 fn constant(name: &str, dims: &[usize], kind: DataType, raw_data: Vec<u8>) -> TensorProto {
     let dims = dims.iter().map(|d| *d as i64).collect();
-    TensorProto { name: name.to_owned(), dims, data_type: kind as i32, raw_data, ..TensorProto::default() }
+    TensorProto {
+        name: name.to_owned(),
+        dims,
+        data_type: kind as i32,
+        raw_data,
+        ..TensorProto::default()
+    }
 }
 
 /// An integer attribute of a node.
@@ -57,7 +64,12 @@ pub fn integer(name: &str, value: i64) -> AttributeProto {
 /// An attribute of a node that lists integers.
 pub fn list(name: &str, values: &[i64]) -> AttributeProto {
     let kind = AttributeType::Ints as i32;
-    AttributeProto { name: name.to_owned(), r#type: kind, ints: values.to_vec(), ..AttributeProto::default() }
+    AttributeProto {
+        name: name.to_owned(),
+        r#type: kind,
+        ints: values.to_vec(),
+        ..AttributeProto::default()
+    }
 }
 
 /// An entry of the metadata.

@@ -16,10 +16,12 @@ pub fn model(proto: &ModelProto) -> Read<Model> {
     };
     let version = of("voltour.feature_version")?;
     if version != FEATURE_VERSION.to_string() {
-        return Err(format!("made for version {version} of the features; this is version {FEATURE_VERSION}"));
+        return Err(format!(
+            "made for version {version} of the features; this is version {FEATURE_VERSION}"
+        ));
     }
-    let shape: Shape =
-        serde_json::from_str(&of("voltour.network")?).map_err(|e| format!("voltour.network: {e}"))?;
+    let shape: Shape = serde_json::from_str(&of("voltour.network")?)
+        .map_err(|e| format!("voltour.network: {e}"))?;
     let shape = shape.checked().map_err(|e| e.to_string())?;
     let mut values = Vec::with_capacity(shape.parameters());
     for part in shape.parts() {
@@ -43,7 +45,9 @@ fn numbers(proto: &ModelProto, part: &Part) -> Read<Vec<f32>> {
     let tensor = graph.initializer.iter().find(|t| t.name == *name);
     let tensor = tensor.ok_or_else(|| format!("no parameters {name}"))?;
     let (chunks, rest) = tensor.raw_data.as_chunks::<4>();
-    if tensor.dims != [part.rows as i64, part.columns as i64] || chunks.len() != part.len() || !rest.is_empty()
+    if tensor.dims != [part.rows as i64, part.columns as i64]
+        || chunks.len() != part.len()
+        || !rest.is_empty()
     {
         return Err(format!("{name} has the dimensions {:?}", tensor.dims));
     }
