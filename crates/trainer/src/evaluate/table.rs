@@ -1,0 +1,135 @@
+//! [`Table`]: cells by methods, as Markdown and as CSV.
+
+use std::fmt::Write;
+
+use super::{Optimum, Run, gap};
+
+/// One method in one cell.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Summary {
+    /// Gaps of the scenarios solved, as shares.
+    pub gaps: Vec<f64>,
+    /// Scenarios that have a feasible tour.
+    pub feasible: usize,
+    /// Complete roll-outs of all scenarios.
+    pub roll_outs: u64,
+    /// States valued of all scenarios.
+    pub valued: u64,
+    /// Processor time of each scenario, in seconds.
+    pub seconds: Vec<f64>,
+}
+
+impl Summary {
+    /// Adds what a method gave on a scenario that has a feasible tour.
+    pub fn add(&mut self, run: &Run, best: f64) {
+        self.feasible += 1;
+        self.gaps.extend(run.objective.map(|objective| gap(objective, best)));
+        self.roll_outs += run.roll_outs;
+        self.valued += run.valued;
+        self.seconds.push(run.seconds);
+    }
+
+    /// Mean gap of the scenarios solved, as a share.
+    pub fn mean_gap(&self) -> f64 {
+        self.gaps.iter().sum::<f64>() / self.gaps.len().max(1) as f64
+    }
+
+    /// Share of the feasible scenarios that were solved.
+    pub fn solved_share(&self) -> f64 {
+        self.gaps.len() as f64 / self.feasible.max(1) as f64
+    }
+
+    /// Median processor time, in seconds.
+    pub fn median_s(&self) -> f64 {
+        let mut seconds = self.seconds.clone();
+        seconds.sort_by(f64::total_cmp);
+        seconds.get(seconds.len() / 2).copied().unwrap_or(0.0)
+    }
+}
+
+/// Rows of cell and method.
+#[derive(Clone, Debug, Default)]
+pub struct Table {
+    rows: Vec<(String, String, usize, Summary)>,
+}
+
+impl Table {
+    /// Adds the row of a method in a cell with these references.
+    pub fn push(&mut self, cell: &str, method: &str, optima: &[Optimum], summary: Summary) {
+        let proven = optima.iter().filter(|optimum| optimum.proven).count();
+        self.rows.push((cell.to_owned(), method.to_owned(), proven, summary));
+    }
+
+    /// As CSV, with a head.
+    pub fn csv(&self) -> String {
+        let mut text = String::from(
+            "cell,method,feasible,proven,solved,mean_gap,largest_gap,roll_outs,valued,median_s\n",
+        );
+        for (cell, method, proven, s) in &self.rows {
+            let each = |total: u64| total as f64 / s.feasible.max(1) as f64;
+            let largest = s.gaps.iter().copied().fold(0.0, f64::max);
+            let (solved, mean) = (s.gaps.len(), s.mean_gap());
+            let _ = writeln!(
+                text,
+                "{cell},{method},{},{proven},{solved},{mean:.6},{largest:.6},{:.1},{:.1},{:.6}",
+                s.feasible,
+                each(s.roll_outs),
+                each(s.valued),
+                s.median_s(),
+            );
+        }
+        text
+    }
+
+    /// As Markdown, with a mean over the cells for each method at its end.
+    pub fn markdown(&self) -> String {
+        let mut text = String::from(
+            "| cell | method | solved | mean gap | roll-outs | states valued | median ms |\n| --- | --- | --- | --- | --- | --- | --- |\n",
+        );
+        let mut line = |cell: &str, method: &str, s: &Summary, gap: f64| {
+            let each = |total: u64| total as f64 / s.feasible.max(1) as f64;
+            let _ = writeln!(
+                text,
+                "| {cell} | {method} | {} of {} | {:.2} % | {:.0} | {:.0} | {:.1} |",
+                s.gaps.len(),
+                s.feasible,
+                100.0 * gap,
+                each(s.roll_outs),
+                each(s.valued),
+                1e3 * s.median_s(),
+            );
+        };
+        for (cell, method, _, summary) in &self.rows {
+            line(cell, method, summary, summary.mean_gap());
+        }
+        for (method, all, gap) in self.means() {
+            line("mean of the cells", method, &all, gap);
+        }
+        text
+    }
+
+    /// For each method, all cells together, and the mean over the cells of their mean gaps.
+    fn means(&self) -> Vec<(&str, Summary, f64)> {
+        let mut methods: Vec<&str> = Vec::new();
+        for (_, method, ..) in &self.rows {
+            if !methods.contains(&method.as_str()) {
+                methods.push(method);
+            }
+        }
+        let mean = |method| {
+            let rows: Vec<&Summary> =
+                self.rows.iter().filter(|row| row.1 == method).map(|row| &row.3).collect();
+            let mut all = Summary::default();
+            for row in &rows {
+                all.gaps.extend(&row.gaps);
+                all.seconds.extend(&row.seconds);
+                all.feasible += row.feasible;
+                all.roll_outs += row.roll_outs;
+                all.valued += row.valued;
+            }
+            let gap = rows.iter().map(|row| row.mean_gap()).sum::<f64>() / rows.len().max(1) as f64;
+            (method, all, gap)
+        };
+        methods.into_iter().map(mean).collect()
+    }
+}

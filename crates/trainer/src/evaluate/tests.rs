@@ -1,0 +1,87 @@
+use voltour_solver::instance::Instance;
+use voltour_solver::policy::Problem;
+use voltour_solver::policy::guided::Rule;
+use voltour_solver::scenario::Scenario;
+
+use super::cell::FIRST_TEST_SEED;
+use super::{Cell, METHODS, Method, Optima, Optimum, Run, Summary, Table, gap};
+
+#[test]
+fn every_cell_and_method_is_read_back_by_its_name() {
+    for problem in Problem::ALL {
+        let cells = Cell::of(problem);
+        assert!(cells.len() >= 3);
+        for cell in cells {
+            assert_eq!(cell.problem(), problem);
+            assert_eq!(cell.to_string().parse::<Cell>(), Ok(cell));
+        }
+    }
+    for name in METHODS {
+        assert_eq!(name.parse::<Method>().unwrap().to_string(), name);
+    }
+    for wrong in ["", "beam", "sample+", "greedy+more", "control-", "k_coverage"] {
+        assert!(wrong.parse::<Method>().is_err(), "{wrong}");
+    }
+    for wrong in ["", "mobile", "mobile/x", "k_coverage/48/3", "reward/1/2/3/4"] {
+        assert!(wrong.parse::<Cell>().is_err(), "{wrong}");
+    }
+}
+
+#[test]
+fn the_gap_of_nothing_is_nothing() {
+    assert_eq!(gap(0.0, 0.0), 0.0);
+    assert_eq!(gap(3.0, 0.0), 1.0);
+    assert_eq!(gap(110.0, 100.0), 0.1);
+    assert_eq!(gap(9.0, 10.0), 0.1);
+}
+
+#[test]
+fn proofs_are_kept_in_their_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("optima.csv");
+    let cell: Cell = "mobile/10".parse().unwrap();
+    let scenario = Scenario::from_document(&cell.draw(FIRST_TEST_SEED).unwrap()).unwrap();
+    let instance = Instance::new(&scenario);
+    let found = Optima::open(Some(&file), 5.0).unwrap().of("mobile/10:0", &instance).unwrap();
+    assert!(found.proven && found.objective.is_some());
+    // Without time to prove anything, the answer comes from the file.
+    let again = Optima::open(Some(&file), 0.0).unwrap().of("mobile/10:0", &instance).unwrap();
+    assert_eq!(again, found);
+}
+
+#[test]
+fn every_method_builds_a_tour_no_better_than_the_optimum() {
+    for cell in ["k_coverage/32/2/0.4", "dense/20", "mobile/8"] {
+        let cell: Cell = cell.parse().unwrap();
+        let scenario = Scenario::from_document(&cell.draw(FIRST_TEST_SEED + 1).unwrap()).unwrap();
+        let instance = Instance::new(&scenario);
+        let optimum = Optima::open(None, 20.0).unwrap().of("", &instance).unwrap();
+        let best = optimum.objective.unwrap();
+        let rule = Rule(cell.problem());
+        for name in METHODS {
+            let method: Method = name.parse().unwrap();
+            let run = method.run(&instance, &rule, 1, 0.05, 0.002).unwrap();
+            let Some(objective) = run.objective else { continue };
+            let better = if cell.problem() == Problem::KCoverage {
+                objective < best * (1.0 - 1e-9)
+            } else {
+                objective > best * (1.0 + 1e-9)
+            };
+            assert!(!better, "{name} on {cell}: {objective} beats the proven {best}");
+        }
+    }
+}
+
+#[test]
+fn a_table_counts_what_was_solved() {
+    let mut summary = Summary::default();
+    let run = Run { objective: Some(110.0), roll_outs: 4, valued: 20, seconds: 0.5 };
+    summary.add(&run, 100.0);
+    summary.add(&Run { objective: None, ..run }, 100.0);
+    assert_eq!(summary.solved_share(), 0.5);
+    let optimum = Optimum { objective: Some(100.0), proven: true };
+    let mut table = Table::default();
+    table.push("mobile/8", "greedy", &[optimum; 2], summary);
+    assert!(table.csv().ends_with("mobile/8,greedy,2,2,1,0.100000,0.100000,4.0,20.0,0.500000\n"));
+    assert!(table.markdown().contains("| mobile/8 | greedy | 1 of 2 | 10.00 % | 4 | 20 | 500.0 |"));
+}
