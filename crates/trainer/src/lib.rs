@@ -7,6 +7,7 @@
 pub mod checkpoint;
 pub mod dqn;
 pub mod error;
+pub mod evaluate;
 pub mod file;
 pub mod network;
 pub mod onnx;

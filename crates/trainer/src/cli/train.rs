@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use voltour_solver::instance::Instance;
 use voltour_solver::policy::Problem;
 use voltour_trainer::checkpoint::Checkpoint;
-use voltour_trainer::dqn::{Device, Options, Pool, Training, trials};
+use voltour_trainer::dqn::{Device, Options, Pool, Training, demonstrations, trials};
 use voltour_trainer::scenarios::{Split, draw, read};
 use voltour_trainer::{Error, Result};
 
@@ -89,12 +89,18 @@ pub fn run(args: Args) -> Result<()> {
     let pool = Pool::new(&training, problem)?;
     eprintln!("{} scenarios to train on, {} to validate on", pool.len(), trials.len());
 
-    let training = match &checkpoint {
+    let shown = if options.demonstrations > 0.0 {
+        demonstrations(&training, problem, args.proof, seed)
+    } else {
+        Vec::new()
+    };
+    let mut training = match &checkpoint {
         Some(checkpoint) => {
             let learner = checkpoint.learner(args.device)?;
             Training::resume(options, pool, learner, checkpoint.run.rounds)?
         }
         None => Training::new(options, pool, args.device)?,
     };
+    training.demonstrate(shown);
     Run::new(training, trials, problem, out, checkpoint).go(args.validate_every, &interrupted)
 }

@@ -23,6 +23,7 @@
 
 mod actors;
 mod adam;
+mod demonstrations;
 mod greedy;
 mod learner;
 mod options;
@@ -37,6 +38,7 @@ mod trajectory;
 mod validation;
 
 pub use adam::{Adam, clip};
+pub use demonstrations::demonstrations;
 pub use greedy::{best, complete};
 pub use learner::{Device, Learner};
 pub use options::{Options, Targets};

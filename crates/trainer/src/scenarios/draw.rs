@@ -1,5 +1,6 @@
 //! Scenarios drawn from cells.
 
+use rand_pcg::rand_core::Rng;
 use rayon::prelude::*;
 use voltour_solver::generate;
 use voltour_solver::policy::Problem;
@@ -8,29 +9,30 @@ use voltour_solver::scenario::{Document, Scenario};
 use crate::dqn::{index, stream, unit};
 use crate::error::{Error, Result};
 
-use super::{Cell, cells};
+use crate::evaluate::Cell;
 
+use super::cells;
+
+const SCENARIO: u64 = 9;
 const CELL: u64 = 10;
 const REQUESTS: u64 = 11;
 
-/// What scenarios are for; no two draw the same.
+/// What scenarios are for; no two draw the same, and neither draws what measures a policy in the end
+/// ([`crate::evaluate::FIRST_TEST_SEED`] and on).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Split {
     /// To learn from.
     Training,
     /// To watch the training and to choose among its networks.
     Validation,
-    /// To say in the end how good it is.
-    Test,
 }
 
 impl Split {
-    /// Its scenarios have the seeds from here on.
-    const fn first_seed(self) -> u64 {
+    /// The seed of its `i`-th scenario in a training with that seed.
+    fn seed(self, seed: u64, i: u64) -> u64 {
         match self {
-            Self::Training => 1_000_000_000,
-            Self::Validation => 2_000_000_000,
-            Self::Test => 3_000_000_000,
+            Self::Validation => (1 << 20) + i,
+            Self::Training => (1 << 32) + u64::from(stream(seed, SCENARIO, i).next_u32()),
         }
     }
 }
@@ -51,7 +53,7 @@ pub fn draw(
     let failed = |e: &dyn std::fmt::Display| Error::Scenario(e.to_string());
     let deploy = |i: u64| {
         let cell = &cells[index(&mut stream(seed, CELL, i), cells.len())];
-        let seed = split.first_seed() + seed * 10_000_000 + i;
+        let seed = split.seed(seed, i);
         let documents = match cell {
             Cell::KCoverage(options) => {
                 let document = generate::k_coverage(options, seed).map_err(|e| failed(&e))?;

@@ -3,16 +3,7 @@
 use voltour_solver::generate::{KCoverage, Mobile, Reward};
 use voltour_solver::policy::Problem;
 
-/// The options of one draw.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Cell {
-    /// Of a k-coverage scenario.
-    KCoverage(KCoverage),
-    /// Of a reward scenario.
-    Reward(Reward),
-    /// Of a mobile scenario.
-    Mobile(Mobile),
-}
+use crate::evaluate::Cell;
 
 /// The cells of a problem's training; each is drawn from as often.
 pub fn cells(problem: Problem) -> Vec<Cell> {

@@ -7,5 +7,5 @@ mod mix;
 mod read;
 
 pub use draw::{Split, draw};
-pub use mix::{Cell, cells};
+pub use mix::cells;
 pub use read::read;
