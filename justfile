@@ -3,7 +3,7 @@
 python := justfile_directory() / "target/python"
 
 # Everything that must hold before a change lands.
-check: fmt lint layers test docs client
+check: fmt lint layers test docs client onnx
 
 # Formatting.
 fmt:
@@ -31,10 +31,16 @@ client: python
     cargo build --locked
     {{python}}/bin/python tests/client/round.py target/debug/voltour
 
-# The Python that the client test runs in.
+# A model as the trainer writes it passes the ONNX checker, and onnxruntime computes what the trainer does.
+onnx: python
+    mkdir -p target/onnx
+    cargo run --quiet --package voltour-trainer --example onnx_values --locked -- target/onnx
+    {{python}}/bin/python tests/onnx/agree.py target/onnx
+
+# The Python that the client test and the ONNX test run in.
 python:
     test -x {{python}}/bin/python || python3 -m venv {{python}}
-    {{python}}/bin/pip install --quiet --disable-pip-version-check --requirement tests/client/requirements.txt
+    {{python}}/bin/pip install --quiet --disable-pip-version-check --requirement tests/client/requirements.txt --requirement tests/onnx/requirements.txt
 
 # The benchmarks, each printing a ratio against its reference.
 bench:

@@ -3,7 +3,9 @@
 use std::fmt;
 use std::str::FromStr;
 
-use voltour_solver::generate::{GenerateError, KCoverage, Mobile, Reward, k_coverage, mobile, reward};
+use voltour_solver::generate::{
+    GenerateError, KCoverage, Mobile, Reward, k_coverage, mobile, reward,
+};
 use voltour_solver::policy::Problem;
 use voltour_solver::scenario::Document;
 

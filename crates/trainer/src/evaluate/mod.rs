@@ -6,7 +6,7 @@ mod method;
 mod optima;
 mod table;
 
-pub use cell::{Cell, UnknownCell};
+pub use cell::{Cell, FIRST_TEST_SEED, UnknownCell};
 pub use gap::gap;
 pub use method::{METHODS, Method, Run, UnknownMethod};
 pub use optima::{Optima, Optimum};

@@ -51,7 +51,8 @@ impl Optima {
             return Ok(known);
         }
         let begin = ThreadTime::now();
-        let stop = |done: u64| done.is_multiple_of(16) && begin.elapsed().as_secs_f64() > self.limit_s;
+        let stop =
+            |done: u64| done.is_multiple_of(16) && begin.elapsed().as_secs_f64() > self.limit_s;
         let options = Options { solver: SolverName::Exact, seed: 0, stop: &stop, policy: None };
         // The exact solver is part of every version.
         let solved = solve_compiled(instance, &options).map_err(io::Error::other)?;

@@ -1,0 +1,133 @@
+//! [`Run`]: a training with its validations, checkpoints and curves.
+
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use voltour_solver::policy::Problem;
+use voltour_trainer::Result;
+use voltour_trainer::checkpoint::{self, Checkpoint};
+use voltour_trainer::dqn::{Progress, Score, Training, Trial, validate};
+use voltour_trainer::network::Weights;
+use voltour_trainer::report::{self, Point};
+
+use super::bar::Bar;
+use super::stopwatch::Stopwatch;
+
+/// A training on its way, and what is known of it.
+pub struct Run<'a> {
+    training: Training<'a>,
+    trials: Vec<Trial<'a>>,
+    problem: Problem,
+    out: PathBuf,
+    curve: Vec<Point>,
+    best: Weights,
+    seconds_before: f64,
+    watch: Stopwatch,
+    losses: Mean,
+    totals: Mean,
+}
+
+/// A mean in the making.
+#[derive(Default)]
+struct Mean {
+    sum: f64,
+    count: u64,
+}
+
+impl Mean {
+    fn add(&mut self, value: Option<f64>) {
+        if let Some(value) = value {
+            self.sum += value;
+            self.count += 1;
+        }
+    }
+
+    fn take(&mut self) -> f64 {
+        let mean = self.sum / self.count.max(1) as f64;
+        *self = Self::default();
+        mean
+    }
+}
+
+impl<'a> Run<'a> {
+    /// A run that begins, or goes on from a checkpoint.
+    pub fn new(
+        training: Training<'a>,
+        trials: Vec<Trial<'a>>,
+        problem: Problem,
+        out: PathBuf,
+        from: Option<Checkpoint>,
+    ) -> Self {
+        let fresh = training.learner.network.weights().clone();
+        let (curve, seconds_before, best) =
+            from.map_or((Vec::new(), 0.0, fresh), |c| (c.run.curve, c.run.seconds, c.best));
+        let (losses, totals) = (Mean::default(), Mean::default());
+        let watch = Stopwatch::start();
+        Self { training, trials, problem, out, curve, best, seconds_before, watch, losses, totals }
+    }
+
+    /// Trains to the end, or until interrupted; what is reached is saved either way.
+    pub fn go(mut self, validate_every: u64, interrupted: &AtomicBool) -> Result<()> {
+        let done = self.training.learner.adam.steps;
+        let mut bar = Bar::new(self.training.options.steps, done);
+        let mut next = done + validate_every;
+        let mut progress = Progress { step: done, ..Progress::default() };
+        while !self.training.is_over() && !interrupted.load(Ordering::Relaxed) {
+            progress = self.training.advance()?;
+            self.losses.add(progress.loss);
+            self.totals.add(progress.total);
+            bar.show(&progress);
+            if progress.step >= next {
+                bar.score(progress.step, self.measure(&progress)?);
+                next = progress.step + validate_every;
+            }
+        }
+        if self.curve.last().is_none_or(|point| point.step < progress.step) {
+            bar.score(progress.step, self.measure(&progress)?);
+        }
+        bar.end();
+        if !self.training.is_over() {
+            eprintln!("interrupted at step {}; go on with --resume", progress.step);
+        }
+        println!("{}", self.out.join("model.onnx").display());
+        Ok(())
+    }
+
+    /// Validates, and saves what there is.
+    fn measure(&mut self, progress: &Progress) -> Result<Score> {
+        let network = &self.training.learner.network;
+        let score = validate(network, &self.trials);
+        let point = Point {
+            step: progress.step,
+            seconds: self.seconds_before + self.watch.seconds(),
+            loss: self.losses.take(),
+            epsilon: progress.epsilon,
+            total: self.totals.take(),
+            gap: score.gap,
+            feasible: score.feasible,
+        };
+        if self.curve.iter().all(|p| point.cost() < p.cost()) {
+            self.best = network.weights().clone();
+        }
+        self.curve.push(point);
+        let checkpoint = Checkpoint {
+            run: checkpoint::Run {
+                problem: self.problem.name().to_owned(),
+                command: std::env::args().collect::<Vec<_>>().join(" "),
+                options: self.training.options.clone(),
+                steps: progress.step,
+                rounds: self.training.rounds(),
+                seconds: point.seconds,
+                curve: self.curve.clone(),
+            },
+            weights: network.weights().clone(),
+            target: self.training.learner.target.weights().clone(),
+            best: self.best.clone(),
+            adam: self.training.learner.adam.clone(),
+        };
+        checkpoint.save(&self.out.join("checkpoint.safetensors"))?;
+        checkpoint.model(false).save(&self.out.join("model.onnx"))?;
+        report::save(&self.out, self.problem.name(), &self.curve)?;
+        Ok(score)
+    }
+}
