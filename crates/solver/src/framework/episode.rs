@@ -3,10 +3,10 @@
 use super::{Action, Definition, State};
 use crate::instance::Instance;
 
-/// What a failed episode costs, and what each cover that it can no longer reach adds; in units of the objective
-/// (for k-coverage, about half of a tour).
+/// What a failed episode costs, and what each cover that it still lacks adds, in units of the objective. The
+/// second is about what a stop takes on the way, so that failing early is never cheaper than going on.
 const FAILURE: f64 = 3.0;
-const PER_LOST_COVER: f64 = 0.3;
+const PER_MISSING_COVER: f64 = 0.5;
 
 /// An episode: from the empty tour, action by action, to where the stop function ends it.
 #[derive(Clone)]
@@ -16,8 +16,6 @@ pub struct Episode<'a> {
     actions: Vec<Action>,
     /// By demand, members that are legal actions.
     available: Vec<u32>,
-    /// Covers that no legal action can bring any more.
-    lost: u32,
     over: bool,
     earned: f64,
 }
@@ -30,7 +28,6 @@ impl<'a> Episode<'a> {
             state: State::new(instance),
             actions: Vec::new(),
             available: Vec::new(),
-            lost: 0,
             over: false,
             earned: 0.0,
         };
@@ -85,7 +82,11 @@ impl<'a> Episode<'a> {
         self.state.insert(action.candidate, action.insertion.position);
         self.look();
         let failed = self.over && self.state.open_demands() > 0;
-        let penalty = if failed { FAILURE + PER_LOST_COVER * f64::from(self.lost) } else { 0.0 };
+        let penalty = if failed {
+            FAILURE + PER_MISSING_COVER * f64::from(self.state.missing())
+        } else {
+            0.0
+        };
         let reward = action.reward - penalty;
         self.earned += reward;
         reward
@@ -115,9 +116,8 @@ impl<'a> Episode<'a> {
             }
         }
         // Where leaving a stop out never breaks a limit, a legal place that is lost never comes back.
-        let short = |(d, &available): (usize, &u32)| state.lacks(d).saturating_sub(available);
-        self.lost = self.available.iter().enumerate().map(short).sum();
-        let dead = instance.metric && self.lost > 0;
+        let lacks_more = |(d, &available): (usize, &u32)| state.lacks(d) > available;
+        let dead = instance.metric && self.available.iter().enumerate().any(lacks_more);
         self.over = self.actions.is_empty() || dead;
         if self.over {
             self.actions.clear();

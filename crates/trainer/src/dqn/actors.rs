@@ -38,7 +38,14 @@ impl<'a> Actors<'a> {
     }
 
     /// Takes one step in every episode, and gives those that ended by it.
-    pub fn step(&mut self, pool: &Pool<'a>, network: &Network, epsilon: f64) -> Vec<Trajectory> {
+    /// Its last reward then counts what `orders` other orders of its stops would win.
+    pub fn step(
+        &mut self,
+        pool: &Pool<'a>,
+        network: &Network,
+        epsilon: f64,
+        orders: usize,
+    ) -> Vec<Trajectory> {
         self.rounds += 1;
         let (seed, rounds) = (self.seed, self.rounds);
         let play = |(i, actor): (usize, &mut Actor<'a>)| {
@@ -59,6 +66,7 @@ impl<'a> Actors<'a> {
                     return None;
                 }
             }
+            actor.trajectory.add(actor.play.reordered(orders, &mut rng));
             actor.episodes += 1;
             actor.play = pool.draw(&mut stream(seed, DRAWS, number(i, actor.episodes)));
             Some(std::mem::take(&mut actor.trajectory))

@@ -53,6 +53,10 @@ pub struct Options {
     /// Gradient steps between copies of the network into the target network (n-step targets).
     #[arg(long, default_value_t = 500)]
     pub target_every: u64,
+    /// Random orders in which the stops of an episode are put in again; what the best of them wins counts as
+    /// the last reward, for the search on top of the policy does the same.
+    #[arg(long, default_value_t = 8)]
+    pub orders: usize,
     /// Epsilon at the beginning.
     #[arg(long, default_value_t = 1.0)]
     pub epsilon_start: f64,

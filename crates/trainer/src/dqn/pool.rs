@@ -6,7 +6,9 @@ use rand_pcg::Pcg64Mcg;
 use rayon::prelude::*;
 use voltour_solver::framework::{Episode, definition};
 use voltour_solver::instance::Instance;
+use voltour_solver::policy::guided::{Kept, reinsert};
 use voltour_solver::policy::{Encoder, Encoding, Problem};
+use voltour_solver::scenario::Objective;
 
 use crate::error::{Error, Result};
 
@@ -26,6 +28,26 @@ impl<'a> Play<'a> {
         let episode = Episode::new(instance, definition(problem));
         let encoder = Arc::new(Encoder::new(episode.state()));
         Self { episode, encoder }
+    }
+
+    /// What the best of `orders` random orders of its stops would win over its own, in the units of its rewards;
+    /// nothing before it has succeeded.
+    pub fn reordered(&self, orders: usize, rng: &mut Pcg64Mcg) -> f32 {
+        let state = self.episode.state();
+        if orders == 0 || !self.episode.succeeded() {
+            return 0.0;
+        }
+        let (instance, definition) = (state.instance(), self.episode.definition());
+        let mut kept = Kept::nothing(instance);
+        kept.offer(instance, state.tour());
+        let own = kept.value.cost;
+        reinsert(instance, definition, self.episode.order(), orders, rng, &mut kept);
+        let unit = match instance.scenario.objective {
+            Objective::MinDistance => state.scales().length_m,
+            Objective::MaxReward => state.scales().gain,
+            Objective::MaxCount => 1.0,
+        };
+        ((own - kept.value.cost) / unit).max(0.0) as f32
     }
 
     /// What the Q-network sees.

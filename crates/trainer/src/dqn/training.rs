@@ -87,7 +87,7 @@ impl<'a> Training<'a> {
             Targets::Mc => None,
             Targets::NStep => Some(options.horizon),
         };
-        let ended = self.actors.step(&self.pool, &self.learner.network, epsilon);
+        let ended = self.actors.step(&self.pool, &self.learner.network, epsilon, options.orders);
         for sample in ended.iter().flat_map(|trajectory| trajectory.samples(horizon)) {
             if !sample.state.nodes.iter().all(|f| f.is_finite()) {
                 return Err(Error::NotFinite { what: "a feature", step: self.learner.adam.steps });

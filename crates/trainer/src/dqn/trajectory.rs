@@ -18,6 +18,13 @@ impl Trajectory {
         self.steps.push((state, action, reward));
     }
 
+    /// Adds to the last reward.
+    pub fn add(&mut self, bonus: f32) {
+        if let Some((.., reward)) = self.steps.last_mut() {
+            *reward += bonus;
+        }
+    }
+
     /// The number of steps.
     pub fn len(&self) -> usize {
         self.steps.len()

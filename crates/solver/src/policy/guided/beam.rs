@@ -17,38 +17,45 @@ struct Child {
 }
 
 impl<'a> Guide<'a> {
-    /// Keeps, stop by stop, the `width` children that promise most, of those with the same stops only the
-    /// one that promises most. The episodes that ended, `width` at most, are returned: each narrows the
-    /// beam by one.
+    /// Keeps, stop by stop, the `width` children that promise most and leave no demand impossible, of those
+    /// with the same stops only the one that promises most. The episodes that ended, `width` at most, are
+    /// returned: each narrows the beam by one. Where none meets the demands, one that failed is returned.
     ///
     /// # Errors
     /// The Q-function cannot answer.
     pub fn beam(&self, width: usize) -> Result<Vec<Episode<'a>>, QError> {
-        let (mut beam, mut ended) = (vec![self.begin()], Vec::new());
+        let (mut beam, mut ended, mut failed) = (vec![self.begin()], Vec::new(), None);
         if beam[0].is_over() {
             return Ok(beam);
         }
         while !beam.is_empty() {
             let values = self.values(&beam.iter().collect::<Vec<_>>())?;
-            let room = width - ended.len();
-            let mut next = Vec::with_capacity(room);
-            for child in chosen(&beam, &values, room) {
+            let mut next = Vec::with_capacity(width);
+            for child in promising(&beam, &values) {
+                if ended.len() + next.len() >= width {
+                    break;
+                }
                 let mut episode = beam[child.parent].clone();
                 episode.act(child.action);
-                if episode.is_over() {
+                if !episode.is_over() {
+                    next.push(episode);
+                } else if episode.succeeded() {
                     ended.push(episode);
                 } else {
-                    next.push(episode);
+                    failed.get_or_insert(episode);
                 }
             }
             beam = next;
+        }
+        if ended.is_empty() {
+            ended.extend(failed);
         }
         Ok(ended)
     }
 }
 
-/// The children of the next beam, the most promising first.
-fn chosen(beam: &[Episode<'_>], values: &[Vec<f32>], width: usize) -> Vec<Child> {
+/// The children that may enter the next beam, the most promising first.
+fn promising(beam: &[Episode<'_>], values: &[Vec<f32>]) -> Vec<Child> {
     let mut children: Vec<Child> = Vec::new();
     for (parent, (episode, values)) in beam.iter().zip(values).enumerate() {
         for (action, (of, &q)) in episode.actions().iter().zip(values).enumerate() {
@@ -70,5 +77,6 @@ fn chosen(beam: &[Episode<'_>], values: &[Vec<f32>], width: usize) -> Vec<Child>
         stops.sort_unstable();
         seen.insert(stops.clone())
     };
-    children.into_iter().filter(|child| fresh(child)).take(width).collect()
+    children.retain(|child| fresh(child));
+    children
 }

@@ -2,7 +2,7 @@
 
 use rand_pcg::Pcg64Mcg;
 
-use super::{Guide, Kept};
+use super::{Guide, Kept, reinsert};
 use crate::framework::Episode;
 use crate::policy::QError;
 use crate::solvers::Budget;
@@ -91,7 +91,7 @@ impl<'a> Guide<'a> {
             if !budget.spend() {
                 return;
             }
-            self.reinsert(end.order(), effort.orders, rng, kept);
+            reinsert(self.instance, self.definition, end.order(), effort.orders, rng, kept);
         }
     }
 }

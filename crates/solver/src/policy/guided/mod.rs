@@ -15,6 +15,7 @@ mod rule;
 pub use construct::Effort;
 pub use guide::Guide;
 pub use kept::Kept;
+pub use reinsert::reinsert;
 pub use rule::Rule;
 
 #[cfg(test)]

@@ -7,55 +7,55 @@
 use rand::seq::SliceRandom;
 use rand_pcg::Pcg64Mcg;
 
-use super::{Guide, Kept};
-use crate::framework::{Insert, State};
+use super::Kept;
+use crate::framework::{Definition, Insert, State};
+use crate::instance::Instance;
 use crate::solvers::gain;
 
-impl Guide<'_> {
-    /// Puts the stops of a tour in again, in `times` random orders. A tour is complete as soon as its demands
-    /// are met; where stops are worth something in themselves, what is won is filled with others, the
-    /// best gain for effort first. Every tour goes to `kept`.
-    pub fn reinsert(&self, stops: &[u32], times: usize, rng: &mut Pcg64Mcg, kept: &mut Kept) {
-        let mut order = stops.to_vec();
-        let empty = State::new(self.instance);
-        for _ in 0..times {
-            order.shuffle(rng);
-            let mut state = empty.clone();
-            for &candidate in &order {
-                if state.helps(candidate)
-                    && let Some(place) = state.place(candidate, Insert::Cheapest)
-                {
-                    state.insert(candidate, place.insertion.position);
-                }
+/// Puts the stops of a tour in again, in `times` random orders. A tour is complete as soon as its demands
+/// are met; where stops are worth something in themselves, what is won is filled with others, the best gain
+/// for effort first. Every tour goes to `kept`.
+pub fn reinsert(
+    instance: &Instance<'_>,
+    definition: &dyn Definition,
+    stops: &[u32],
+    times: usize,
+    rng: &mut Pcg64Mcg,
+    kept: &mut Kept,
+) {
+    let mut order = stops.to_vec();
+    let empty = State::new(instance);
+    for _ in 0..times {
+        order.shuffle(rng);
+        let mut state = empty.clone();
+        for &candidate in &order {
+            if state.helps(candidate)
+                && let Some(place) = state.place(candidate, Insert::Cheapest)
+            {
+                state.insert(candidate, place.insertion.position);
             }
-            self.fill(&mut state);
-            kept.offer(self.instance, state.tour());
         }
+        fill(definition, &mut state);
+        kept.offer(instance, state.tour());
     }
+}
 
-    /// Inserts what still helps, the best gain for effort first.
-    fn fill(&self, state: &mut State<'_>) {
-        if self.definition.stops(state) {
-            return;
-        }
-        loop {
-            let mut best: Option<(f64, u32, usize)> = None;
-            for &candidate in state.useful() {
-                if state.tour().serves(candidate) || !state.helps(candidate) {
-                    continue;
-                }
-                let Some(place) = state.place(candidate, Insert::Cheapest) else { continue };
-                let worth = gain(self.instance, candidate).max(1e-9);
-                let ratio = worth / place.insertion.effort.max(1e-9);
-                if best.is_none_or(|(most, ..)| ratio > most) {
-                    best = Some((ratio, candidate, place.insertion.position));
-                }
+/// Inserts what still helps, the best gain for effort first.
+fn fill(definition: &dyn Definition, state: &mut State<'_>) {
+    while !definition.stops(state) {
+        let mut best: Option<(f64, u32, usize)> = None;
+        for &candidate in state.useful() {
+            if state.tour().serves(candidate) || !state.helps(candidate) {
+                continue;
             }
-            let Some((_, candidate, position)) = best else { return };
-            state.insert(candidate, position);
-            if self.definition.stops(state) {
-                return;
+            let Some(place) = state.place(candidate, Insert::Cheapest) else { continue };
+            let worth = gain(state.instance(), candidate).max(1e-9);
+            let ratio = worth / place.insertion.effort.max(1e-9);
+            if best.is_none_or(|(most, ..)| ratio > most) {
+                best = Some((ratio, candidate, place.insertion.position));
             }
         }
+        let Some((_, candidate, position)) = best else { return };
+        state.insert(candidate, position);
     }
 }

@@ -9,7 +9,7 @@ use crate::framework::Episode;
 use crate::policy::QError;
 
 impl<'a> Guide<'a> {
-    /// Takes the best action in each state until all episodes are over.
+    /// Takes the best action in each state that leaves no demand impossible, until all episodes are over.
     ///
     /// # Errors
     /// The Q-function cannot answer.
@@ -49,10 +49,25 @@ impl<'a> Guide<'a> {
             let values = self.values(&shared)?;
             for (episode, mut values) in live.iter_mut().zip(values) {
                 values.iter_mut().for_each(|value| *value += noise(*value));
-                if let Some(action) = best(&values) {
-                    episode.act(action);
-                }
+                step_safely(episode, values);
             }
         }
     }
+}
+
+/// Takes the best action that leaves no demand impossible; where each of them does, the best.
+fn step_safely(episode: &mut Episode<'_>, mut values: Vec<f32>) {
+    let Some(first) = best(&values) else { return };
+    let mut action = Some(first);
+    while let Some(index) = action.filter(|&index| values[index] > f32::NEG_INFINITY) {
+        let mut next = episode.clone();
+        next.act(index);
+        if !next.is_over() || next.succeeded() {
+            *episode = next;
+            return;
+        }
+        values[index] = f32::NEG_INFINITY;
+        action = best(&values);
+    }
+    episode.act(first);
 }
