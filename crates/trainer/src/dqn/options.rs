@@ -54,8 +54,8 @@ pub struct Options {
     #[arg(long, default_value_t = 500)]
     pub target_every: u64,
     /// Random orders in which the stops of an episode are put in again; what the best of them wins counts as
-    /// the last reward, for the search on top of the policy does the same.
-    #[arg(long, default_value_t = 8)]
+    /// the last reward, as the search on top of the policy would have it.
+    #[arg(long, default_value_t = 0)]
     pub orders: usize,
     /// Epsilon at the beginning.
     #[arg(long, default_value_t = 1.0)]

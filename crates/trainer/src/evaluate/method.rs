@@ -157,7 +157,7 @@ impl Method {
         let problem = Problem::of(instance.scenario.objective);
         match self.way {
             Way::Solver(solver) => {
-                let stop = |done: u64| done.is_multiple_of(16) && spent() > limit_s;
+                let stop = |_| spent() > limit_s;
                 let options = Options { solver, seed, stop: &stop, policy: Some(policy) };
                 let outcome = solve_compiled(instance, &options)
                     .map_err(|error| QError::Failed(error.to_string()))?;

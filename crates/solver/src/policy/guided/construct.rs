@@ -33,8 +33,8 @@ impl Effort {
     pub const WHOLE: Self =
         Self { greedy: true, beam: 15, samples: 16, temperature: 0.1, look_ahead: 0, orders: 16 };
 
-    /// What `auto` begins with.
-    pub const SHARE: Self = Self { greedy: true, beam: 0, samples: 7, ..Self::WHOLE };
+    /// What `auto` begins with: eight roll-outs.
+    pub const SHARE: Self = Self { beam: 7, samples: 0, ..Self::WHOLE };
 }
 
 /// Sampled roll-outs that go side by side.
