@@ -60,7 +60,7 @@ pub(super) fn part(batch: &Batch, from: usize, states: usize, more: usize) -> Ba
         for row in 0..rows {
             let at = state * n + row;
             let real = row < n;
-            part.mask.push(if real { 1.0 } else { 0.0 });
+            part.mask.push(if real { batch.mask[at] } else { 0.0 });
             part.nodes.extend(
                 (0..FEATURES).map(|f| if real { batch.nodes[at * FEATURES + f] } else { 0.0 }),
             );
