@@ -22,19 +22,23 @@ layers:
 test:
     cargo test --workspace --locked
 
+# The binaries and examples as `just test` builds them: another selection of packages would build their
+# dependencies again, with other features.
+build:
+    cargo test --workspace --locked --no-run
+
 # The documentation builds, warnings denied.
 docs:
     RUSTDOCFLAGS="-D warnings" cargo doc --workspace --no-deps --locked
 
 # A Python client generated from proto/ alone does the whole round against a real server.
-client: python
-    cargo build --locked
+client: python build
     {{python}}/bin/python tests/client/round.py target/debug/voltour
 
 # A model as the trainer writes it passes the ONNX checker, and onnxruntime computes what the trainer does.
-onnx: python
+onnx: python build
     mkdir -p target/onnx
-    cargo run --quiet --package voltour-trainer --example onnx_values --locked -- target/onnx
+    target/debug/examples/onnx_values target/onnx
     {{python}}/bin/python tests/onnx/agree.py target/onnx
 
 # The Python that the client test and the ONNX test run in.
