@@ -11,6 +11,8 @@ pub struct Action {
     pub insertion: Insertion,
     /// Share of the positions looked at that are legal.
     pub legal_share: f64,
+    /// By how much the second-cheapest legal position costs more; infinite if there is none.
+    pub regret: f64,
     /// The reward r(s, v), in the units of the problem's objective function.
     pub reward: f64,
 }

@@ -105,16 +105,24 @@ impl<'a> State<'a> {
         };
         let looked_at = positions.clone().count();
         let (mut best, mut legal): (Option<Insertion>, usize) = (None, 0);
+        let mut second = f64::INFINITY;
         for position in positions {
             let Some(found) = self.tour().insertion(self.instance, position, candidate) else {
                 continue;
             };
             legal += 1;
-            if best.is_none_or(|best| found.effort < best.effort) {
-                best = Some(found);
+            match best {
+                Some(best) if best.effort <= found.effort => second = second.min(found.effort),
+                _ => {
+                    second = best.map_or(second, |best| best.effort);
+                    best = Some(found);
+                }
             }
         }
         let legal_share = legal as f64 / looked_at as f64;
-        best.map(|insertion| Action { candidate, insertion, legal_share, reward: 0.0 })
+        best.map(|insertion| {
+            let regret = second - insertion.effort;
+            Action { candidate, insertion, legal_share, regret, reward: 0.0 }
+        })
     }
 }

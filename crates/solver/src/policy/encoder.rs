@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::ahead::Ahead;
 use super::knapsack::Knapsack;
 use super::pressure::Pressure;
 use super::{Edges, Encoding, FEATURES, Feature};
@@ -49,7 +50,7 @@ impl Encoder {
             nodes.chunks_exact_mut(FEATURES).zip(&rows).enumerate()
         {
             row.copy_from_slice(&scene.shared);
-            let action = action.map(|index| &episode.actions()[index as usize]);
+            let action = action.map(|i| (i as usize, &episode.actions()[i as usize]));
             scene.fill(&mut Row(row), i, candidate, action);
         }
         let (places, edges) = match &self.edges {
@@ -100,6 +101,7 @@ impl Row<'_> {
 struct Scene<'a, 'b> {
     state: &'a State<'b>,
     pressure: Pressure,
+    ahead: Ahead,
     knapsack: Knapsack,
     /// The features that are the same on every row.
     shared: [f32; FEATURES],
@@ -120,9 +122,11 @@ impl<'a, 'b> Scene<'a, 'b> {
         let point = |&c: &u32| instance.point_at(c, last.depart_s);
         let points =
             if instance.moving { candidates.iter().map(point).collect() } else { Vec::new() };
+        let pressure = Pressure::new(episode);
         let mut scene = Self {
             state,
-            pressure: Pressure::new(episode),
+            ahead: Ahead::new(episode, &pressure),
+            pressure,
             knapsack: Knapsack::new(episode),
             shared: [0.0; FEATURES],
             points,
@@ -173,7 +177,7 @@ impl<'a, 'b> Scene<'a, 'b> {
         self.shared = shared;
     }
 
-    fn fill(&self, row: &mut Row<'_>, i: usize, candidate: u32, action: Option<&Action>) {
+    fn fill(&self, row: &mut Row<'_>, i: usize, candidate: u32, action: Option<(usize, &Action)>) {
         let (state, scales) = (self.state, self.state.scales());
         let instance = state.instance();
         let length = |metres: f64| metres / scales.length_m;
@@ -186,7 +190,7 @@ impl<'a, 'b> Scene<'a, 'b> {
         let charge_s = it.charge_j(0.0) / instance.scenario.charger.transfer_w;
         row.set(Feature::Charge, charge_s / scales.time_s);
         self.pressure.fill(state, candidate, |feature, value| row.set(feature, value));
-        let Some(action) = action else {
+        let Some((index, action)) = action else {
             row.set(Feature::InTour, 1.0);
             return;
         };
@@ -199,6 +203,9 @@ impl<'a, 'b> Scene<'a, 'b> {
         row.set(Feature::Delay, sq(visit.delay_s / scales.time_s));
         row.set(Feature::Leg, sq(visit.leg_s / scales.time_s));
         row.set(Feature::LegalShare, action.legal_share);
+        row.set(Feature::Regret, sq(action.regret / scales.effort));
+        self.ahead
+            .fill(index, state.open_demands(), scales, |feature, value| row.set(feature, value));
         self.knapsack.fill(action, scales, |feature, value| row.set(feature, value));
     }
 

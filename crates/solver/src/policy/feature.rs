@@ -5,7 +5,7 @@
 //! `sq(x) = x / (1 + |x|)`. Rows are the stops so far and the legal actions; nothing else.
 
 /// Version of the features: a model says which it was trained on and is refused with another.
-pub const FEATURE_VERSION: u32 = 1;
+pub const FEATURE_VERSION: u32 = 2;
 
 /// Declares the features, each with its column.
 macro_rules! features {
@@ -61,6 +61,14 @@ features! {
     Leg,
     /// Share of the positions that are legal.
     LegalShare,
+    /// Effort by which the second-cheapest legal position is dearer; 1 if there is none.
+    Regret,
+    /// Share of the other actions, by weight, that would have no legal position any more.
+    Loses,
+    /// Demands that would become impossible, as a share of the open ones.
+    Breaks,
+    /// Effort by which the others would grow dearer, in the mean by weight.
+    Dearer,
     /// Share of what is left of the scarce resource that the insertion takes.
     Share,
     /// Gain for effort, beside that of the mean candidate.

@@ -1,5 +1,6 @@
 //! The policy: what a state looks like to a Q-function, and the search that a Q-function guides.
 
+mod ahead;
 mod batch;
 mod encoder;
 mod encoding;

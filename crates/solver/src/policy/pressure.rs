@@ -43,6 +43,11 @@ impl Pressure {
         }
     }
 
+    /// What the demands that a candidate is in press for it together.
+    pub fn on(&self, state: &State<'_>, candidate: u32) -> f64 {
+        state.instance().demands.of[candidate as usize].iter().map(|&d| self.of[d as usize]).sum()
+    }
+
     pub fn fill(&self, state: &State<'_>, candidate: u32, mut set: impl FnMut(Feature, f64)) {
         let demands = &state.instance().demands;
         let of = &demands.of[candidate as usize];

@@ -131,3 +131,32 @@ fn a_batch_pads_with_zeros() {
         }
     }
 }
+
+#[test]
+fn an_action_breaks_a_demand_exactly_where_the_episode_fails_by_it() {
+    let (mut broken, mut whole) = (0, 0);
+    let options = generate::KCoverage { sensors: 32, k: 2, alpha: 0.8, ..Default::default() };
+    for seed in 0..20 {
+        let document = generate::k_coverage(&options, seed).unwrap();
+        let scenario = Scenario::from_document(&document).unwrap();
+        let instance = Instance::new(&scenario);
+        let mut episode = Episode::new(&instance, definition(Problem::KCoverage));
+        let encoder = Encoder::new(episode.state());
+        let mut rng = Pcg64Mcg::seed_from_u64(seed);
+        while !episode.is_over() {
+            let encoding = encoder.encode(&episode);
+            for (row, action) in encoding.nodes.chunks_exact(FEATURES).zip(&encoding.actions) {
+                let Some(action) = *action else { continue };
+                let mut next = episode.clone();
+                next.act(action as usize);
+                let fails = next.is_over() && !next.succeeded();
+                assert_eq!(row[Feature::Breaks.column()] > 0.0, fails, "seed {seed}");
+                // Whatever breaks a demand does so by losing others.
+                assert!(!fails || row[Feature::Loses.column()] > 0.0, "seed {seed}");
+                if fails { broken += 1 } else { whole += 1 }
+            }
+            episode.act(rng.random_range(0..episode.actions().len()));
+        }
+    }
+    assert!(broken > 50 && whole > 50, "{broken} {whole}");
+}
