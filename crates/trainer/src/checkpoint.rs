@@ -24,9 +24,11 @@ pub struct Checkpoint {
     pub run: Run,
     /// The parameters.
     pub weights: Weights,
+    /// Their running mean.
+    pub average: Weights,
     /// The parameters of the target network.
     pub target: Weights,
-    /// The parameters that did best in validation.
+    /// The mean parameters that did best in validation.
     pub best: Weights,
     /// The moments of the gradients.
     pub adam: Adam,
@@ -59,6 +61,7 @@ impl Checkpoint {
     pub fn save(&self, path: &Path) -> Result<()> {
         let arrays = [
             ("weights", self.weights.values()),
+            ("average", self.average.values()),
             ("target", self.target.values()),
             ("best", self.best.values()),
             ("adam.first", &self.adam.first),
@@ -104,7 +107,7 @@ impl Checkpoint {
             training: training.to_string(),
             evaluation: evaluation.to_string(),
         };
-        let weights = if last { &self.weights } else { &self.best };
+        let weights = if last { &self.average } else { &self.best };
         Model { weights: weights.clone(), metadata }
     }
 
@@ -114,6 +117,7 @@ impl Checkpoint {
     /// The device cannot be opened.
     pub fn learner(&self, device: Device) -> Result<Learner> {
         let mut learner = Learner::new(self.weights.clone(), device)?;
+        learner.average = Network::new(self.average.clone());
         learner.target = Network::new(self.target.clone());
         learner.adam = self.adam.clone();
         Ok(learner)
@@ -143,6 +147,7 @@ impl Checkpoint {
             Adam { first: array("adam.first")?, second: array("adam.second")?, steps: run.steps };
         Ok(Self {
             weights: weights("weights")?,
+            average: weights("average")?,
             target: weights("target")?,
             best: weights("best")?,
             adam,

@@ -58,7 +58,7 @@ impl<'a> Run<'a> {
         out: PathBuf,
         from: Option<Checkpoint>,
     ) -> Self {
-        let fresh = training.learner.network.weights().clone();
+        let fresh = training.learner.average.weights().clone();
         let (curve, seconds_before, best) =
             from.map_or((Vec::new(), 0.0, fresh), |c| (c.run.curve, c.run.seconds, c.best));
         let (losses, totals) = (Mean::default(), Mean::default());
@@ -95,8 +95,8 @@ impl<'a> Run<'a> {
 
     /// Validates, and saves what there is.
     fn measure(&mut self, progress: &Progress) -> Result<Score> {
-        let network = &self.training.learner.network;
-        let score = validate(network, &self.trials);
+        let learner = &self.training.learner;
+        let score = validate(&learner.average, &self.trials);
         let point = Point {
             step: progress.step,
             seconds: self.seconds_before + self.watch.seconds(),
@@ -107,7 +107,7 @@ impl<'a> Run<'a> {
             feasible: score.feasible,
         };
         if self.curve.iter().all(|p| point.cost() < p.cost()) {
-            self.best = network.weights().clone();
+            self.best = learner.average.weights().clone();
         }
         self.curve.push(point);
         let checkpoint = Checkpoint {
@@ -120,10 +120,11 @@ impl<'a> Run<'a> {
                 seconds: point.seconds,
                 curve: self.curve.clone(),
             },
-            weights: network.weights().clone(),
-            target: self.training.learner.target.weights().clone(),
+            weights: learner.network.weights().clone(),
+            average: learner.average.weights().clone(),
+            target: learner.target.weights().clone(),
             best: self.best.clone(),
-            adam: self.training.learner.adam.clone(),
+            adam: learner.adam.clone(),
         };
         checkpoint.save(&self.out.join("checkpoint.safetensors"))?;
         checkpoint.model(false).save(&self.out.join("model.onnx"))?;

@@ -43,6 +43,8 @@ impl Device {
 pub struct Learner {
     /// The network that acts.
     pub network: Network,
+    /// The running mean of its parameters (Polyak and Juditsky 1992): steps jump about, their mean does not.
+    pub average: Network,
     /// The target network of n-step targets.
     pub target: Network,
     /// The moments of the gradients.
@@ -59,7 +61,13 @@ impl Learner {
         let differentiable = Differentiable::new(device.open()?);
         let adam = Adam::new(weights.values().len());
         let network = Network::new(weights);
-        Ok(Self { target: network.clone(), network, adam, differentiable })
+        Ok(Self {
+            average: network.clone(),
+            target: network.clone(),
+            network,
+            adam,
+            differentiable,
+        })
     }
 
     /// One gradient step: `y = rewards + max Q(s')` by a double DQN, Huber's loss, clipped Adam. Gives the mean
@@ -104,10 +112,20 @@ impl Learner {
         let rate = learning_rate(options, step as f64 / options.steps as f64);
         self.adam.step(self.network.weights_mut().values_mut(), &gradient, rate);
         finite("a parameter", self.network.weights().is_finite())?;
+        self.blend(options.average);
         if self.adam.steps.is_multiple_of(options.target_every) {
             self.target = self.network.clone();
         }
         Ok(loss)
+    }
+
+    /// Moves the mean towards the parameters; at first quickly, so that it forgets where they began.
+    fn blend(&mut self, keep: f64) {
+        let steps = self.adam.steps as f64;
+        let keep = keep.min(steps / (steps + 10.0)) as f32;
+        let mean = self.average.weights_mut().values_mut().iter_mut();
+        mean.zip(self.network.weights().values())
+            .for_each(|(m, w)| *m = keep * *m + (1.0 - keep) * w);
     }
 
     /// For each sample the value of the state after it: the target network's, of the action that the acting

@@ -75,6 +75,9 @@ pub struct Options {
     /// The rate at the end, as a share of the first.
     #[arg(long, default_value_t = 0.05)]
     pub rate_end: f64,
+    /// Share of the averaged parameters that each step keeps; the average is what is validated and exported. 0: none.
+    #[arg(long, default_value_t = 0.999)]
+    pub average: f64,
     /// Longest gradient, by its norm.
     #[arg(long, default_value_t = 1.0)]
     pub clip: f64,
@@ -152,6 +155,7 @@ impl Options {
             ("explore", self.explore),
             ("hold", self.hold),
             ("rate-end", self.rate_end),
+            ("average", self.average),
             ("demonstrations", self.demonstrations),
         ] {
             hold(name, value, "must be in [0, 1]", (0.0..=1.0).contains(&value))?;

@@ -87,6 +87,6 @@ fn the_agent_learns() {
     while !training.is_over() {
         training.advance().unwrap();
     }
-    let after = validate(&training.learner.network, &trials);
+    let after = validate(&training.learner.average, &trials);
     assert!(after.gap < 0.6 * before.gap, "gap {} after {}", after.gap, before.gap);
 }

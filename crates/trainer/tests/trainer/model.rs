@@ -95,6 +95,7 @@ fn a_checkpoint_is_read_back() {
             seconds: 1.5,
             curve: vec![Point { step: 12, gap: 0.1, feasible: 1.0, ..Point::default() }],
         },
+        average: super::states::weights(5),
         target: super::states::weights(3),
         best: super::states::weights(4),
         weights,
@@ -106,7 +107,7 @@ fn a_checkpoint_is_read_back() {
     assert_eq!(Checkpoint::load(&path).unwrap(), checkpoint);
     assert_eq!(checkpoint.model(false).weights, checkpoint.best);
     let model = checkpoint.model(true);
-    assert_eq!(model.weights, checkpoint.weights);
+    assert_eq!(model.weights, checkpoint.average);
     assert!(model.metadata.training.contains("\"steps\":12"));
     std::fs::write(&path, b"nothing").unwrap();
     assert!(Checkpoint::load(&path).is_err());
