@@ -18,6 +18,8 @@ pub struct Encoder {
     edges: Option<Arc<Edges>>,
     /// By candidate, its place in `edges`.
     place_of: Vec<u32>,
+    /// Whether it looks one step ahead, the dearest of the features.
+    ahead: bool,
 }
 
 impl Encoder {
@@ -32,7 +34,13 @@ impl Encoder {
             let distance = |&a: &u32, &b: &u32| instance.distance_m(a as usize, b as usize);
             Arc::new(edges(state, useful.len(), useful, distance))
         });
-        Self { edges, place_of }
+        Self { edges, place_of, ahead: true }
+    }
+
+    /// The encoder that leaves the features of the step ahead 0.
+    #[must_use]
+    pub fn without_ahead(self) -> Self {
+        Self { ahead: false, ..self }
     }
 
     /// The state of an episode, all of its features.
@@ -44,7 +52,7 @@ impl Encoder {
         let mut rows: Vec<(u32, Option<u32>)> = stops.chain(actions).collect();
         rows.sort_unstable_by_key(|&(candidate, _)| candidate);
         let candidates: Vec<u32> = rows.iter().map(|&(candidate, _)| candidate).collect();
-        let scene = Scene::new(episode, &candidates);
+        let scene = Scene::new(episode, &candidates, self.ahead);
         let mut nodes = vec![0.0; rows.len() * FEATURES];
         for (i, (row, &(candidate, action))) in
             nodes.chunks_exact_mut(FEATURES).zip(&rows).enumerate()
@@ -101,7 +109,7 @@ impl Row<'_> {
 struct Scene<'a, 'b> {
     state: &'a State<'b>,
     pressure: Pressure,
-    ahead: Ahead,
+    ahead: Option<Ahead>,
     knapsack: Knapsack,
     /// The features that are the same on every row.
     shared: [f32; FEATURES],
@@ -115,7 +123,7 @@ struct Scene<'a, 'b> {
 }
 
 impl<'a, 'b> Scene<'a, 'b> {
-    fn new(episode: &'a Episode<'b>, candidates: &'a [u32]) -> Self {
+    fn new(episode: &'a Episode<'b>, candidates: &'a [u32], ahead: bool) -> Self {
         let state = episode.state();
         let instance = state.instance();
         let last = state.tour().last(instance);
@@ -125,7 +133,7 @@ impl<'a, 'b> Scene<'a, 'b> {
         let pressure = Pressure::new(episode);
         let mut scene = Self {
             state,
-            ahead: Ahead::new(episode, &pressure),
+            ahead: ahead.then(|| Ahead::new(episode, &pressure)),
             pressure,
             knapsack: Knapsack::new(episode),
             shared: [0.0; FEATURES],
@@ -204,8 +212,10 @@ impl<'a, 'b> Scene<'a, 'b> {
         row.set(Feature::Leg, sq(visit.leg_s / scales.time_s));
         row.set(Feature::LegalShare, action.legal_share);
         row.set(Feature::Regret, sq(action.regret / scales.effort));
-        self.ahead
-            .fill(index, state.open_demands(), scales, |feature, value| row.set(feature, value));
+        if let Some(ahead) = &self.ahead {
+            let open = state.open_demands();
+            ahead.fill(index, open, scales, |feature, value| row.set(feature, value));
+        }
         self.knapsack.fill(action, scales, |feature, value| row.set(feature, value));
     }
 

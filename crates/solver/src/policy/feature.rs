@@ -25,6 +25,13 @@ macro_rules! features {
             pub const fn column(self) -> usize {
                 self as usize
             }
+
+            /// Its name, as it is written here.
+            pub const fn name(self) -> &'static str {
+                match self {
+                    $(Self::$name => stringify!($name)),+
+                }
+            }
         }
     };
 }

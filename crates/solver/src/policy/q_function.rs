@@ -12,6 +12,11 @@ pub trait QFunction: Send + Sync {
     /// # Errors
     /// The function cannot answer. A caller treats values that are not finite in the same way.
     fn values(&self, batch: &Batch) -> Result<Vec<f32>, QError>;
+
+    /// Whether it reads the features of the step ahead, the dearest; they are 0 for one that does not.
+    fn reads_ahead(&self) -> bool {
+        true
+    }
 }
 
 /// A Q-function cannot answer.

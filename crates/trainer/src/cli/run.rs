@@ -113,7 +113,7 @@ impl<'a> Run<'a> {
         let checkpoint = Checkpoint {
             run: checkpoint::Run {
                 problem: self.problem.name().to_owned(),
-                command: std::env::args().collect::<Vec<_>>().join(" "),
+                command: command(std::env::args().skip(1)),
                 options: self.training.options.clone(),
                 steps: progress.step,
                 rounds: self.training.rounds(),
@@ -130,5 +130,33 @@ impl<'a> Run<'a> {
         checkpoint.model(false).save(&self.out.join("model.onnx"))?;
         report::save(&self.out, self.problem.name(), &self.curve)?;
         Ok(score)
+    }
+}
+
+/// What the command line asked for; where its files lie is nobody's business but this machine's.
+fn command(mut arguments: impl Iterator<Item = String>) -> String {
+    let mut command = "voltour-train".to_owned();
+    while let Some(argument) = arguments.next() {
+        match argument.as_str() {
+            "--out" => drop(arguments.next()),
+            given if given.starts_with("--out=") => {}
+            given => {
+                command.push(' ');
+                command.push_str(given);
+            }
+        }
+    }
+    command
+}
+
+#[cfg(test)]
+mod tests {
+    use super::command;
+
+    #[test]
+    fn a_model_does_not_say_where_it_was_made() {
+        let given = ["train", "reward", "--out", "/home/me/runs", "--seed", "3", "--out=/there"];
+        let command = command(given.into_iter().map(str::to_owned));
+        assert_eq!(command, "voltour-train train reward --seed 3");
     }
 }

@@ -3,6 +3,8 @@
 use clap::{Args, ValueEnum};
 use serde::{Deserialize, Serialize};
 
+use voltour_solver::policy::Feature;
+
 use crate::error::{Error, Result};
 use crate::network::Shape;
 
@@ -102,6 +104,9 @@ pub struct Options {
     /// Share of each batch that comes from demonstrations.
     #[arg(long, default_value_t = 0.0)]
     pub demonstrations: f64,
+    /// Features that the network does not see, such as Regret,Loses.
+    #[arg(long, value_delimiter = ',', value_name = "FEATURE")]
+    pub without: Vec<String>,
     /// Width of an embedding, p.
     #[arg(long, default_value_t = 64)]
     pub width: usize,
@@ -130,12 +135,30 @@ impl Options {
         Shape { width: self.width, rounds: self.rounds, kernels: self.kernels.clone() }
     }
 
+    /// The columns of the features that the network does not see.
+    ///
+    /// # Errors
+    /// A name is no feature's.
+    pub fn unseen(&self) -> Result<Vec<usize>> {
+        let column = |name: &String| {
+            let named = Feature::ALL.iter().find(|f| f.name().eq_ignore_ascii_case(name));
+            let rule = "must be a feature of docs/policy.md";
+            named.map(|f| f.column()).ok_or(Error::Option {
+                name: "without",
+                value: name.clone(),
+                rule,
+            })
+        };
+        self.without.iter().map(column).collect()
+    }
+
     /// The options, if a training can follow them.
     ///
     /// # Errors
     /// The first option that is outside its range.
     pub fn checked(self) -> Result<Self> {
         self.shape().checked()?;
+        self.unseen()?;
         for (name, value) in [
             ("steps", self.steps),
             ("updates", self.updates),

@@ -45,7 +45,10 @@ impl<'a> Training<'a> {
     /// # Errors
     /// An option has no meaning, or the device cannot be opened.
     pub fn new(options: Options, pool: Pool<'a>, device: Device) -> Result<Self> {
-        let weights = Weights::random(options.shape(), options.seed);
+        let mut weights = Weights::random(options.shape(), options.seed);
+        for column in options.unseen()? {
+            weights.values_mut()[column * options.width..(column + 1) * options.width].fill(0.0);
+        }
         Self::resume(options, pool, Learner::new(weights, device)?, 0)
     }
 

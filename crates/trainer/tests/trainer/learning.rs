@@ -1,7 +1,7 @@
 //! Learning is repeatable, goes on after an interruption, and learns.
 
 use voltour_solver::instance::Instance;
-use voltour_solver::policy::Problem;
+use voltour_solver::policy::{Feature, Problem};
 use voltour_solver::scenario::Scenario;
 use voltour_trainer::dqn::{Device, Learner, Options, Pool, Targets, Training, trials, validate};
 use voltour_trainer::network::Weights;
@@ -49,6 +49,20 @@ fn same_seed_same_weights() {
         assert_eq!(trained(&options, &instances), weights);
         assert_ne!(trained(&Options { seed: 4, ..options }, &instances), weights);
     }
+}
+
+#[test]
+fn what_is_not_seen_changes_no_value() {
+    let scenarios = scenarios(Problem::Mobile, Split::Training, 6);
+    let instances: Vec<_> = scenarios.iter().map(Instance::new).collect();
+    let options = Options { without: vec!["slack".to_owned()], ..small(8) };
+    let weights = trained(&options, &instances);
+    let row =
+        |feature: Feature| &weights.part(0)[feature.column() * options.width..][..options.width];
+    assert!(row(Feature::Slack).iter().all(|w| *w == 0.0));
+    assert!(row(Feature::Deadline).iter().all(|w| *w != 0.0));
+    let unknown = Options { without: vec!["luck".to_owned()], ..options };
+    assert!(unknown.checked().unwrap_err().to_string().contains("luck"));
 }
 
 #[test]

@@ -30,6 +30,7 @@ impl<'a> Guide<'a> {
         q: &'a dyn QFunction,
     ) -> Self {
         let encoder = Encoder::new(Episode::new(instance, definition).state());
+        let encoder = if q.reads_ahead() { encoder } else { encoder.without_ahead() };
         Self { instance, definition, q, encoder, valued: Cell::new(0) }
     }
 

@@ -25,4 +25,8 @@ impl QFunction for Rule {
         };
         Ok(batch.nodes.chunks_exact(FEATURES).map(value).collect())
     }
+
+    fn reads_ahead(&self) -> bool {
+        false
+    }
 }
