@@ -47,9 +47,13 @@ const STEPS: u32 = 15;
 const FIRST_LABELS: usize = 16_000;
 const MOST_LABEL_BYTES: usize = 600 << 20;
 /// The baseline does one iteration for so many labels; where sensors move, an iteration takes long.
-const LABELS_PER_ITERATION: usize = 12;
+const LABELS_PER_ITERATION: usize = 36;
 const LABELS_PER_MOVING_ITERATION: usize = 500;
 const MOST_ITERATIONS: u64 = 20_000;
+/// Where the first bound leaves this share of the incumbent open, some iterations come before the search: few
+/// labels are worth following under a better incumbent.
+const WIDE_GAP: f64 = 0.1;
+const ITERATIONS_OF_WIDE_GAP: u64 = 600;
 /// Layers of time at most, where metres are the cost and where gains are.
 const MOST_INTERVALS: usize = 200;
 const MOST_INTERVALS_OF_GAIN: usize = 800;
@@ -154,7 +158,7 @@ impl<'p, 'a, 'b> Prover<'p, 'a, 'b> {
                 break;
             }
             labels = (3 * labels).min(most_labels);
-            self.improve(labels);
+            self.improve(self.iterations(labels));
             if self.incumbent.suffices() {
                 return self.closed();
             }
@@ -189,6 +193,13 @@ impl<'p, 'a, 'b> Prover<'p, 'a, 'b> {
             }
             if done {
                 break;
+            }
+        }
+        let cutoff = self.incumbent.cutoff();
+        if round == 0 && few(model) && cutoff - ascent.best.bound > WIDE_GAP * cutoff {
+            self.improve(ITERATIONS_OF_WIDE_GAP);
+            if self.incumbent.suffices() {
+                return End::Closed;
             }
         }
         self.paths.read(Reading::Tours);
@@ -295,11 +306,15 @@ impl<'p, 'a, 'b> Prover<'p, 'a, 'b> {
         }) || instance.finish(&run).arrive_s > instance.timespan_s
     }
 
-    /// Lets the baseline improve the incumbent, in proportion to the labels of the next search.
-    fn improve(&mut self, labels: usize) {
-        let per_iteration =
-            if self.model.wide.moving { LABELS_PER_MOVING_ITERATION } else { LABELS_PER_ITERATION };
-        let iterations = ((labels / per_iteration) as u64).min(MOST_ITERATIONS);
+    /// Iterations of the baseline in proportion to the labels of the next search.
+    fn iterations(&self, labels: usize) -> u64 {
+        let moving = self.model.wide.moving;
+        let per = if moving { LABELS_PER_MOVING_ITERATION } else { LABELS_PER_ITERATION };
+        ((labels / per) as u64).min(MOST_ITERATIONS)
+    }
+
+    /// Lets the baseline improve the incumbent.
+    fn improve(&mut self, iterations: u64) {
         let start = self.incumbent.order.clone().unwrap_or_default();
         let (strict, rng) = (self.model.strict, &mut *self.rng);
         let search = |part: &mut Budget<'_>| baseline::search(strict, &start, rng, part);
