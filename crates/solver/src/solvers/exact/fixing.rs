@@ -1,6 +1,7 @@
 //! Reduced cost fixing: arcs that no path uses whose cost beats the cutoff are closed for good.
 
-use super::relaxation::{Reading, Relaxation, Resource, Turn};
+use super::relaxation::{Reading, Relaxation, Resource};
+use super::turns::Turn;
 
 impl Relaxation<'_> {
     /// Closes, in every interval, the arcs over which the least cost of a path is `most` or more. The
@@ -14,7 +15,7 @@ impl Relaxation<'_> {
             let state = self.states(b as usize, to, self.tally.after(0, to));
             reached[state] = network.arcs[a].cost - prizes[to as usize];
         }
-        let mut begun = Vec::new();
+        let mut begun = Begun::default();
         let mut kept = 0;
         for b in 0..self.intervals {
             // A path is rounded down at every stop: a tour may be later than its path, never earlier.
@@ -46,22 +47,39 @@ impl Relaxation<'_> {
 
     /// What it costs to be in each state of a candidate, infinite where going on from there leads to no path
     /// that costs less than `most`; whether one does.
-    fn begin(&self, b: usize, i: usize, most: f64, reached: &[f64], begun: &mut Vec<f64>) -> bool {
+    fn begin(&self, b: usize, i: usize, most: f64, reached: &[f64], begun: &mut Begun) -> bool {
         let total = self.offset[self.offset.len() - 1];
         let own = b * total + self.offset[i]..b * total + self.offset[i + 1];
-        begun.clear();
-        let states = reached[own.clone()].iter().zip(&self.value[own]);
-        let mut any = false;
-        begun.extend(states.map(|(&begun, value)| {
-            let open = begun + value < most;
-            any |= open;
-            if open { begun } else { f64::INFINITY }
-        }));
-        any
+        let masks = 1 << self.memory.of[i].len();
+        let width = self.turns.slots(i);
+        begun.any.clear();
+        begun.slots.clear();
+        begun.slots.resize(width * self.tally.states, f64::INFINITY);
+        let states =
+            reached[own.clone()].chunks_exact(masks).zip(self.value[own].chunks_exact(masks));
+        for ((reached, value), slots) in states.zip(begun.slots.chunks_exact_mut(width)) {
+            begun.costs.clear();
+            let costs = reached.iter().zip(value);
+            begun.costs.extend(costs.map(
+                |(&begun, value)| {
+                    if begun + value < most { begun } else { f64::INFINITY }
+                },
+            ));
+            let any = begun.costs.iter().any(|cost| *cost < f64::INFINITY);
+            begun.any.push(any);
+            for group in self.turns.groups(i).iter().filter(|_| any) {
+                let slots = &mut slots[group.first as usize..=(group.first + group.slots) as usize];
+                for (&cost, &slot) in begun.costs.iter().zip(self.turns.fold(group, masks)) {
+                    let least = &mut slots[usize::from(slot)];
+                    *least = if cost < *least { cost } else { *least };
+                }
+            }
+        }
+        begun.any.contains(&true)
     }
 
     /// Carries the costs at a candidate over its arcs; whether a cost within the interval fell.
-    fn push(&self, b: usize, i: usize, begun: &[f64], reached: &mut [f64]) -> bool {
+    fn push(&self, b: usize, i: usize, begun: &Begun, reached: &mut [f64]) -> bool {
         let mut again = false;
         for (next, turn) in self.ways(b, i) {
             let mut fell = false;
@@ -77,23 +95,20 @@ impl Relaxation<'_> {
 
     /// Closes a candidate's states that nothing begins and its ways that lead to no path that costs less than
     /// `most`. The ways kept so far, over all candidates, are the first `kept`; how many they are then.
-    fn close(&mut self, b: usize, i: usize, most: f64, begun: &[f64], mut kept: usize) -> usize {
+    fn close(&mut self, b: usize, i: usize, most: f64, begun: &Begun, mut kept: usize) -> usize {
         let (n, tallies) = (self.offset.len() - 1, self.tally.states);
         let place = b * n + i;
-        let masks = begun.len() / tallies;
         let live = &mut self.graph.live[place * tallies..(place + 1) * tallies];
-        for (live, begun) in live.iter_mut().zip(begun.chunks_exact(masks)) {
-            *live &= begun.iter().any(|begun| *begun < f64::INFINITY);
-        }
+        live.iter_mut().zip(&begun.any).for_each(|(live, any)| *live &= any);
         let ways = self.graph.first[place]..self.graph.first[place + 1];
         self.graph.first[place] = kept;
-        if begun.iter().all(|begun| *begun == f64::INFINITY) {
+        if !begun.any.contains(&true) {
             return kept;
         }
         let first = self.network.leaving(i).start;
         for way in ways {
             let way = self.graph.ways[way];
-            let turn = &self.turns[first + way.arc as usize];
+            let turn = &self.turns.all[first + way.arc as usize];
             let mut least = f64::INFINITY;
             self.over(i, way.next as usize, turn, begun, |begun, ahead| {
                 let through = begun + turn.cost + self.value[ahead];
@@ -107,29 +122,36 @@ impl Relaxation<'_> {
         kept
     }
 
-    /// What it costs to begin a way, with the state at its head, for every state from which it is open.
+    /// What it costs at least to begin a way, with the state at its head, for every slot from which it is open.
     #[inline]
     fn over(
         &self,
         i: usize,
         next: usize,
         turn: &Turn,
-        begun: &[f64],
+        begun: &Begun,
         mut each: impl FnMut(f64, usize),
     ) {
-        let masks = 1 << self.memory.of[i].len();
+        let group = &self.turns.groups(i)[usize::from(turn.group)];
         let layer = next * self.offset[self.offset.len() - 1] + turn.states as usize;
-        let next_masks = &self.next_mask[turn.masks as usize..turn.masks as usize + masks];
-        for (tally, begun) in begun.chunks_exact(masks).enumerate() {
+        let next_masks = self.turns.next_masks(turn, group);
+        let states = begun.slots.chunks_exact(self.turns.slots(i)).zip(&begun.any);
+        for (tally, (slots, _)) in states.enumerate().filter(|(_, (_, any))| **any) {
             let ahead = layer + (self.tally.after(tally, turn.to) << turn.near);
-            if begun.iter().all(|begun| *begun == f64::INFINITY) {
-                continue;
-            }
-            for (mask, (&begun, &next_mask)) in begun.iter().zip(next_masks).enumerate() {
-                if turn.back as usize & mask == 0 {
-                    each(begun, ahead + next_mask as usize);
-                }
+            for (&begun, &next_mask) in slots[group.first as usize..].iter().zip(next_masks) {
+                each(begun, ahead + next_mask as usize);
             }
         }
     }
+}
+
+/// The costs at which paths begin to go on from a candidate.
+#[derive(Debug, Default)]
+struct Begun {
+    /// By state of the tally and slot, the least.
+    slots: Vec<f64>,
+    /// By state of the tally, whether any is open.
+    any: Vec<bool>,
+    /// By mask, for one state of the tally, while slots are filled.
+    costs: Vec<f64>,
 }

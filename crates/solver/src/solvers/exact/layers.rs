@@ -8,6 +8,9 @@ use super::relaxation::Resource;
 /// Layers of time or energy at first.
 pub const INTERVALS: usize = 96;
 const INTERVALS_OF_FEW: usize = 64;
+/// So many times as many where that makes every arc lead into a later one.
+const FINER: f64 = 3.0;
+const FINER_OF_FEW: f64 = 6.0;
 /// Candidates at rest up to which a shortest tour is proven with fewer layers at first.
 const FEW: usize = 64;
 /// Arcs over all layers for which paths are laid out at all.
@@ -65,7 +68,8 @@ pub fn layers(
             let intervals = if few(model) { INTERVALS_OF_FEW } else { INTERVALS };
             // Where every arc leads into a later interval, no layer needs a second look.
             let fine = (horizon / network.least_step(model)).ceil();
-            if fine <= 3.0 * intervals as f64
+            let finer = if few(model) { FINER_OF_FEW } else { FINER };
+            if fine <= finer * intervals as f64
                 && fine * network.arcs.len() as f64 <= MOST_ARRIVALS as f64
             {
                 return ((fine as usize + 1).max(intervals), horizon);

@@ -33,6 +33,7 @@ mod solve;
 mod spanning;
 mod tally;
 mod timetable;
+mod turns;
 mod verdict;
 
 use incumbent::Incumbent;

@@ -43,13 +43,20 @@ const SHARES: [(u32, usize); 3] = [(4, 200_000), (2, 1_000_000), (1, 3_000_000)]
 const FIRST_STEPS: u32 = 30;
 const FIRST_STEPS_OF_FEW: u32 = 20;
 const STEPS: u32 = 15;
+/// So many more in the first round of few, if as many gained this share of what is open.
+const MORE_STEPS: u32 = 8;
+const WORTH_MORE: f64 = 0.15;
 /// Labels of the first search; each next one may make three times as many, within what memory allows.
 const FIRST_LABELS: usize = 16_000;
 const MOST_LABEL_BYTES: usize = 600 << 20;
 /// The baseline does one iteration for so many labels; where sensors move, an iteration takes long.
-const LABELS_PER_ITERATION: usize = 12;
+const LABELS_PER_ITERATION: usize = 36;
 const LABELS_PER_MOVING_ITERATION: usize = 500;
 const MOST_ITERATIONS: u64 = 20_000;
+/// Where the first bound leaves this share of the incumbent open, some iterations come before the search: few
+/// labels are worth following under a better incumbent.
+const WIDE_GAP: f64 = 0.15;
+const ITERATIONS_OF_WIDE_GAP: u64 = 300;
 /// Layers of time at most, where metres are the cost and where gains are.
 const MOST_INTERVALS: usize = 200;
 const MOST_INTERVALS_OF_GAIN: usize = 800;
@@ -154,7 +161,7 @@ impl<'p, 'a, 'b> Prover<'p, 'a, 'b> {
                 break;
             }
             labels = (3 * labels).min(most_labels);
-            self.improve(labels);
+            self.improve(self.iterations(labels));
             if self.incumbent.suffices() {
                 return self.closed();
             }
@@ -175,9 +182,16 @@ impl<'p, 'a, 'b> Prover<'p, 'a, 'b> {
             0 => FIRST_STEPS,
             _ => STEPS,
         };
-        for step in 0..steps {
-            if !self.budget.spend() {
+        let more = if round == 0 && few(model) { MORE_STEPS } else { 0 };
+        let mut known = f64::NEG_INFINITY;
+        for step in 0..steps + more {
+            let open = self.incumbent.cutoff() - ascent.best.bound;
+            let gains_little = ascent.best.bound - known < WORTH_MORE * open;
+            if step == steps && gains_little || !self.budget.spend() {
                 break;
+            }
+            if step + MORE_STEPS == steps {
+                known = ascent.best.bound;
             }
             if step == 2 {
                 // What is closed early makes every further step cheaper.
@@ -189,6 +203,13 @@ impl<'p, 'a, 'b> Prover<'p, 'a, 'b> {
             }
             if done {
                 break;
+            }
+        }
+        let cutoff = self.incumbent.cutoff();
+        if round == 0 && few(model) && cutoff - ascent.best.bound > WIDE_GAP * cutoff {
+            self.improve(ITERATIONS_OF_WIDE_GAP);
+            if self.incumbent.suffices() {
+                return End::Closed;
             }
         }
         self.paths.read(Reading::Tours);
@@ -295,11 +316,15 @@ impl<'p, 'a, 'b> Prover<'p, 'a, 'b> {
         }) || instance.finish(&run).arrive_s > instance.timespan_s
     }
 
-    /// Lets the baseline improve the incumbent, in proportion to the labels of the next search.
-    fn improve(&mut self, labels: usize) {
-        let per_iteration =
-            if self.model.wide.moving { LABELS_PER_MOVING_ITERATION } else { LABELS_PER_ITERATION };
-        let iterations = ((labels / per_iteration) as u64).min(MOST_ITERATIONS);
+    /// Iterations of the baseline in proportion to the labels of the next search.
+    fn iterations(&self, labels: usize) -> u64 {
+        let moving = self.model.wide.moving;
+        let per = if moving { LABELS_PER_MOVING_ITERATION } else { LABELS_PER_ITERATION };
+        ((labels / per) as u64).min(MOST_ITERATIONS)
+    }
+
+    /// Lets the baseline improve the incumbent.
+    fn improve(&mut self, iterations: u64) {
         let start = self.incumbent.order.clone().unwrap_or_default();
         let (strict, rng) = (self.model.strict, &mut *self.rng);
         let search = |part: &mut Budget<'_>| baseline::search(strict, &start, rng, part);

@@ -9,6 +9,7 @@ use super::Model;
 use super::memory::Memory;
 use super::network::Network;
 use super::tally::Tally;
+use super::turns::{Turn, Turns};
 
 /// The resource by which paths are layered.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -57,22 +58,6 @@ pub struct Way {
     pub next: u16,
 }
 
-/// What following an arc means for the states at its ends.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Turn {
-    /// What it costs, less the prize at its head.
-    pub cost: f64,
-    pub to: u32,
-    /// Where the states of its head begin in a layer.
-    pub states: u32,
-    /// Where its masks begin in `next_mask`.
-    pub masks: u32,
-    /// The bit under which its tail remembers its head.
-    pub back: u16,
-    /// How many neighbours its head remembers.
-    pub near: u16,
-}
-
 /// The relaxed paths of an instance.
 #[derive(Debug)]
 pub struct Relaxation<'n> {
@@ -97,14 +82,14 @@ pub struct Relaxation<'n> {
     pub(super) starts: Vec<u16>,
     /// What the tour without stops costs; infinite if it breaks a limit.
     pub(super) empty: f64,
-    /// By arc and mask, the mask at its end.
-    pub(super) next_mask: Vec<u16>,
-    /// By arc.
-    pub(super) turns: Vec<Turn>,
+    /// What each arc means for the states at its ends.
+    pub(super) turns: Turns,
     /// By interval and state, the least cost of going on.
     pub(super) value: Vec<f64>,
-    /// Values of one candidate while they are computed.
-    scratch: Vec<f64>,
+    /// Values of one candidate while they are computed, and of its slots.
+    scratch: (Vec<f64>, Vec<f64>),
+    /// By group of that candidate, whether a way of it was followed.
+    followed: Vec<bool>,
 }
 
 impl<'n> Relaxation<'n> {
@@ -136,10 +121,10 @@ impl<'n> Relaxation<'n> {
             ends: vec![f64::INFINITY; intervals * n],
             starts: Vec::new(),
             empty: f64::INFINITY,
-            next_mask: Vec::new(),
-            turns: Vec::new(),
+            turns: Turns::default(),
             value: Vec::new(),
-            scratch: Vec::new(),
+            scratch: (Vec::new(), Vec::new()),
+            followed: Vec::new(),
         };
         relaxation.graph = relaxation.lay_out(model);
         relaxation.other = relaxation.graph.clone();
@@ -193,32 +178,7 @@ impl<'n> Relaxation<'n> {
         for i in 0..n {
             self.offset[i + 1] = self.offset[i] + (tally.states << memory.of[i].len());
         }
-        let network = self.network;
-        self.next_mask.clear();
-        self.turns.clear();
-        for from in 0..n {
-            let near = &memory.of[from];
-            for arc in &network.arcs[network.leaving(from)] {
-                let ahead = &memory.of[arc.to as usize];
-                self.turns.push(Turn {
-                    cost: 0.0,
-                    to: arc.to,
-                    states: self.offset[arc.to as usize] as u32,
-                    masks: self.next_mask.len() as u32,
-                    back: near.binary_search(&arc.to).map_or(0, |bit| 1 << bit),
-                    near: ahead.len() as u16,
-                });
-                let own = ahead.binary_search(&(from as u32)).map_or(0, |bit| 1_u16 << bit);
-                let kept: Vec<u16> = near
-                    .iter()
-                    .map(|other| ahead.binary_search(other).map_or(0, |bit| 1_u16 << bit))
-                    .collect();
-                for mask in 0..1_usize << near.len() {
-                    let held = kept.iter().enumerate().filter(|(bit, _)| mask >> bit & 1 == 1);
-                    self.next_mask.push(held.fold(own, |next, (_, bit)| next | bit));
-                }
-            }
-        }
+        self.turns = Turns::new(self.network, &memory, &self.offset);
         self.value = vec![f64::INFINITY; self.intervals * self.offset[n]];
         self.memory = memory;
         self.tally = tally;
@@ -237,7 +197,7 @@ impl<'n> Relaxation<'n> {
     /// Values of all states for these prizes; the least cost of a path from start to end.
     pub fn evaluate(&mut self, prizes: &[f64]) -> f64 {
         let (n, total) = (prizes.len(), self.offset[prizes.len()]);
-        for (turn, arc) in self.turns.iter_mut().zip(&self.network.arcs) {
+        for (turn, arc) in self.turns.all.iter_mut().zip(&self.network.arcs) {
             turn.cost = arc.cost - prizes[arc.to as usize];
         }
         for b in (0..self.intervals).rev() {
@@ -267,7 +227,7 @@ impl<'n> Relaxation<'n> {
     /// The ways that leave a candidate in an interval, with what they mean.
     pub(super) fn ways(&self, b: usize, i: usize) -> impl Iterator<Item = (usize, &Turn)> {
         let n = self.offset.len() - 1;
-        let turns = &self.turns[self.network.leaving(i)];
+        let turns = &self.turns.all[self.network.leaving(i)];
         let ways = self.graph.leaving(b * n + i).iter();
         ways.map(move |way| (way.next as usize, &turns[way.arc as usize]))
     }
@@ -281,28 +241,50 @@ impl<'n> Relaxation<'n> {
         let (n, total) = (self.offset.len() - 1, self.offset[self.offset.len() - 1]);
         let masks = 1 << self.memory.of[i].len();
         let own = b * total + self.offset[i];
-        let mut best = std::mem::take(&mut self.scratch);
+        let (mut best, mut slots) = std::mem::take(&mut self.scratch);
+        let mut followed = std::mem::take(&mut self.followed);
         best.clear();
         best.resize(masks * self.tally.states, f64::INFINITY);
         best[masks * self.tally.met()..].fill(self.ends[b * n + i]);
+        let groups = self.turns.groups(i);
+        let width = self.turns.slots(i);
+        slots.clear();
+        slots.resize(width * self.tally.states, f64::INFINITY);
+        followed.clear();
+        followed.resize(groups.len(), false);
         let live = self.live(b, i);
         let mut within = false;
         for (next, turn) in self.ways(b, i) {
             within |= next == b;
+            followed[usize::from(turn.group)] = true;
+            let group = &groups[usize::from(turn.group)];
             let states = next * total + turn.states as usize;
-            let next_masks = &self.next_mask[turn.masks as usize..turn.masks as usize + masks];
-            for (state, best) in best.chunks_exact_mut(masks).enumerate() {
-                if !live[state] {
-                    continue;
-                }
+            let next_masks = self.turns.next_masks(turn, group);
+            for state in (0..self.tally.states).filter(|&state| live[state]) {
                 let states = states + (self.tally.after(state, turn.to) << turn.near);
                 let ahead = &self.value[states..states + (1 << turn.near)];
+                let first = state * width + group.first as usize;
                 // Without branches on the values, which follow no pattern.
-                for (mask, (best, &next_mask)) in best.iter_mut().zip(next_masks).enumerate() {
-                    if turn.back as usize & mask == 0 {
-                        let value = turn.cost + ahead[next_mask as usize];
-                        *best = if value < *best { value } else { *best };
-                    }
+                let slots = &mut slots[first..first + next_masks.len()];
+                for (best, &next_mask) in slots.iter_mut().zip(next_masks) {
+                    let value = turn.cost + ahead[next_mask as usize];
+                    *best = if value < *best { value } else { *best };
+                }
+            }
+        }
+        for (group, _) in groups.iter().zip(&followed).filter(|(_, followed)| **followed) {
+            let fold = self.turns.fold(group, masks);
+            for (best, slots) in best.chunks_exact_mut(masks).zip(slots.chunks_exact(width)) {
+                let slots = &slots[group.first as usize..=(group.first + group.slots) as usize];
+                if group.whole {
+                    let value = slots[0];
+                    best.iter_mut()
+                        .for_each(|best| *best = if value < *best { value } else { *best });
+                    continue;
+                }
+                for (best, &slot) in best.iter_mut().zip(fold) {
+                    let value = slots[usize::from(slot)];
+                    *best = if value < *best { value } else { *best };
                 }
             }
         }
@@ -312,7 +294,8 @@ impl<'n> Relaxation<'n> {
         let values = &mut self.value[own..own + best.len()];
         let fell = values.iter().zip(&best).any(|(old, new)| new < old);
         values.copy_from_slice(&best);
-        self.scratch = best;
+        self.scratch = (best, slots);
+        self.followed = followed;
         (fell, within)
     }
 
@@ -353,10 +336,8 @@ impl<'n> Relaxation<'n> {
             let end = if tally == self.tally.met() { self.ends[b * n + i] } else { f64::INFINITY };
             let mut best = (end, None);
             for (next, turn) in self.ways(b, i) {
-                if turn.back as usize & mask != 0 {
-                    continue;
-                }
-                let ahead = self.next_mask[turn.masks as usize + mask] as usize;
+                let group = &self.turns.groups(i)[usize::from(turn.group)];
+                let Some(ahead) = self.turns.next_mask(turn, group, mask) else { continue };
                 let counted = self.tally.after(tally, turn.to);
                 let value = turn.cost + self.value[self.states(next, turn.to, counted) + ahead];
                 if value < best.0 {
@@ -371,6 +352,20 @@ impl<'n> Relaxation<'n> {
         }
     }
 
+    /// The candidates to which ways are open from one that is charged at this amount.
+    pub fn heads(&self, candidate: u32, amount: f64, stops: usize) -> impl Iterator<Item = u32> {
+        self.ways(self.layer(amount, stops), candidate as usize).map(|(_, turn)| turn.to)
+    }
+
+    /// The layer of a tour that is somewhere with so many stops, this one too.
+    #[inline]
+    fn layer(&self, amount: f64, stops: usize) -> usize {
+        match self.resource {
+            Resource::Stops => (stops - 1).min(self.intervals - 1),
+            _ => self.interval(amount),
+        }
+    }
+
     /// The least cost of going on from a candidate, of which those that `visited` holds for are served.
     #[inline]
     pub fn go_on(
@@ -381,10 +376,7 @@ impl<'n> Relaxation<'n> {
         tally: usize,
         visited: impl Fn(u32) -> bool,
     ) -> f64 {
-        let b = match self.resource {
-            Resource::Stops => (stops - 1).min(self.intervals - 1),
-            _ => self.interval(amount),
-        };
+        let b = self.layer(amount, stops);
         self.value[self.states(b, candidate, tally) + self.memory.mask(candidate, visited)]
     }
 

@@ -162,15 +162,29 @@ impl<'s, 'a, const W: usize> Search<'s, 'a, W> {
         }
         let mut ahead = std::mem::take(&mut self.ahead);
         ahead.clear();
+        // No better tour takes a way that is closed; whom it leads to may be reached over others.
+        let mut open_to = pool;
+        if label.stops > 0 {
+            let amount = self.amount(&label.run);
+            open_to = Bits::of(self.paths.heads(label.run.node, amount, label.stops as usize));
+        }
         let mut in_reach = Bits::<W>::EMPTY;
         for to in pool.minus(&label.served).iter() {
+            if !open_to.contains(to) && !model.wide.moving {
+                if self.may_be_in_time(&label.run, to) {
+                    in_reach.insert(to);
+                }
+                continue;
+            }
             let run = model.wide.step(&label.run, to);
             if model.wide.in_time(&run)
                 && run.depart_s <= model.wide.timespan_s
                 && model.wide.energy_j(&run) <= model.wide.capacity_j
             {
                 in_reach.insert(to);
-                ahead.push(run);
+                if open_to.contains(to) {
+                    ahead.push(run);
+                }
             }
         }
         // Where no detour is a short cut, who cannot be reached now never can.
@@ -203,11 +217,7 @@ impl<'s, 'a, const W: usize> Search<'s, 'a, W> {
         let gain = label.gain + model.gains[to as usize];
         let reduced =
             label.reduced - self.multipliers.prizes[to as usize] + model.gains[to as usize];
-        let amount = match self.paths.resource() {
-            Resource::Time => run.arrive_s,
-            Resource::Energy => model.wide.energy_j(&run),
-            Resource::Stops => 0.0,
-        };
+        let amount = self.amount(&run);
         let stops = label.stops + 1;
         let tally = self.paths.tally().after(label.tally as usize, to);
         let ahead = self.paths.go_on(to, amount, stops as usize, tally, |c| served.contains(c));
@@ -243,6 +253,23 @@ impl<'s, 'a, const W: usize> Search<'s, 'a, W> {
                 let label = self.labels[new as usize].clone();
                 self.complete(&label, new);
             }
+        }
+    }
+
+    /// Whether a candidate at rest may be reached by its deadline.
+    fn may_be_in_time(&self, run: &Run, to: u32) -> bool {
+        let instance = &self.model.wide;
+        let way_m = instance.distance_m(run.node as usize, to as usize);
+        let arrive_s = run.depart_s + way_m / instance.scenario.charger.speed_mps;
+        arrive_s <= instance.candidates[to as usize].due_s
+    }
+
+    /// What of the resource of the paths has been used.
+    fn amount(&self, run: &Run) -> f64 {
+        match self.paths.resource() {
+            Resource::Time => run.arrive_s,
+            Resource::Energy => self.model.wide.energy_j(run),
+            Resource::Stops => 0.0,
         }
     }
 
