@@ -8,7 +8,7 @@ use super::{Budget, SolverName, auto, baseline, dqn, exact, greedy, random};
 use crate::instance::Instance;
 use crate::plan::{Plan, Status};
 use crate::policy::guided::Effort;
-use crate::policy::{QError, QFunction};
+use crate::policy::{Problem, QError, QFunction};
 use crate::scenario::{Objective, Scenario};
 use crate::stop::StopRule;
 use crate::tolerance::tolerance;
@@ -123,8 +123,8 @@ pub fn solve_compiled(
             found
         }
         SolverName::Dqn => {
-            let (found, fared) =
-                dqn::dqn(instance, options.policy, Effort::WHOLE, &mut rng, &mut budget);
+            let effort = Effort::whole(Problem::of(instance.scenario.objective));
+            let (found, fared) = dqn::dqn(instance, options.policy, effort, &mut rng, &mut budget);
             let mut all: Vec<Found> = found.into_iter().collect();
             // The policy makes a plan better, never possible: what it left undone is the baseline's.
             if fared != PolicyUse::Built {

@@ -18,7 +18,10 @@ use voltour_solver::tour::Tour;
 /// How the control's noise compares with its values: that many times the mean length, or the mean ratio.
 const CONTROL_TEMPERATURE: f64 = 0.3;
 
-/// A way to build a tour: `[control-]WHAT[+order][+search]`, or the name of a solver.
+/// Orders of `+order`.
+const ORDERS: usize = 16;
+
+/// A way to build a tour: `[control-]WHAT[+order[N]][+search]`, or the name of a solver.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Method {
     name: String,
@@ -31,6 +34,10 @@ enum Way {
         /// By the untrained rule in place of the policy.
         control: bool,
         effort: Effort,
+        /// Whether the effort is that of the solver `dqn`, which differs by problem.
+        whole: bool,
+        /// Orders in which stops are put in again, if it names any.
+        orders: Option<usize>,
         /// Local search on the best tour.
         search: bool,
         /// Samples until as much processor time is spent as the method before took.
@@ -70,7 +77,7 @@ pub const METHODS: [&str; 24] = [
 /// The text names no method.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "unknown method {0:?}; a method is [control-]WHAT[+order][+search] with greedy, sampleN, beamN, lookN, whole or as-long for WHAT, or the name of a solver"
+    "unknown method {0:?}; a method is [control-]WHAT[+order[N]][+search] with greedy, sampleN, beamN, lookN, whole or as-long for WHAT, or the name of a solver"
 )]
 pub struct UnknownMethod(String);
 
@@ -97,25 +104,29 @@ impl FromStr for Method {
         let mut effort = match what.trim_end_matches(|c: char| c.is_ascii_digit()) {
             "greedy" => Effort::GREEDY,
             "sample" => {
-                Effort { samples: number()?, temperature: Effort::WHOLE.temperature, ..none }
+                Effort { samples: number()?, temperature: Effort::SHARE.temperature, ..none }
             }
             "beam" => Effort { beam: number()?, ..none },
             "look" => Effort { look_ahead: number()?, ..none },
-            "whole" | "as-long" => Effort::WHOLE,
+            "whole" | "as-long" => none,
             _ => return Err(UnknownMethod(text.to_owned())),
         };
         if control {
             effort.temperature = CONTROL_TEMPERATURE;
         }
-        let (mut search, as_long) = (false, what == "as-long");
+        let (mut search, mut orders, as_long) = (false, None, what == "as-long");
+        let whole = as_long || what == "whole";
         for part in parts {
             match part {
-                "order" => effort.orders = Effort::WHOLE.orders,
                 "search" => search = true,
-                _ => return Err(UnknownMethod(text.to_owned())),
+                "order" => orders = Some(ORDERS),
+                _ => {
+                    let given = part.strip_prefix("order").and_then(|n| n.parse().ok());
+                    orders = Some(given.ok_or_else(|| UnknownMethod(text.to_owned()))?);
+                }
             }
         }
-        Ok(Self { name, way: Way::Guided { control, effort, search, as_long } })
+        Ok(Self { name, way: Way::Guided { control, effort, whole, orders, search, as_long } })
     }
 }
 
@@ -170,7 +181,13 @@ impl Method {
                     seconds: spent(),
                 })
             }
-            Way::Guided { control, effort, search, as_long } => {
+            Way::Guided { control, effort, whole, orders, search, as_long } => {
+                let (own, temperature) = (effort, effort.temperature);
+                let mut effort = if whole { Effort::whole(problem) } else { own };
+                if control {
+                    effort.temperature = temperature;
+                }
+                effort.orders = orders.unwrap_or(effort.orders);
                 let rule = Rule(problem);
                 let q: &dyn QFunction = if control { &rule } else { policy };
                 let guide = Guide::new(instance, definition(problem), q);

@@ -4,7 +4,7 @@ use rand_pcg::Pcg64Mcg;
 
 use super::{Guide, Kept, reinsert};
 use crate::framework::Episode;
-use crate::policy::QError;
+use crate::policy::{Problem, QError};
 use crate::solvers::Budget;
 
 /// How much is built.
@@ -29,12 +29,19 @@ impl Effort {
     pub const GREEDY: Self =
         Self { greedy: true, beam: 0, samples: 0, temperature: 0.0, look_ahead: 0, orders: 0 };
 
-    /// What the solver `dqn` does: at most 32 complete roll-outs.
-    pub const WHOLE: Self =
-        Self { greedy: true, beam: 15, samples: 16, temperature: 0.1, look_ahead: 0, orders: 16 };
-
     /// What `auto` begins with: eight roll-outs.
-    pub const SHARE: Self = Self { beam: 7, samples: 0, ..Self::WHOLE };
+    pub const SHARE: Self =
+        Self { greedy: true, beam: 7, samples: 0, temperature: 0.1, look_ahead: 0, orders: 16 };
+
+    /// What the solver `dqn` does: at most 32 complete roll-outs. Where demands have to be met by their
+    /// deadlines, the order is most of what is left to win, and another one costs little.
+    pub const fn whole(problem: Problem) -> Self {
+        let orders = match problem {
+            Problem::KCoverage => 96,
+            Problem::Reward | Problem::Mobile => 16,
+        };
+        Self { beam: 15, samples: 16, orders, ..Self::SHARE }
+    }
 }
 
 /// Sampled roll-outs that go side by side.

@@ -4,6 +4,7 @@
 //! they are. Putting the same stops in again, in random orders, each at its cheapest legal place, mends
 //! that without a network and without local search.
 
+use rand::RngExt;
 use rand::seq::SliceRandom;
 use rand_pcg::Pcg64Mcg;
 
@@ -12,7 +13,10 @@ use crate::framework::{Definition, Insert, State};
 use crate::instance::Instance;
 use crate::solvers::gain;
 
-/// Puts the stops of a tour in again, in `times` random orders. A tour is complete as soon as its demands
+/// How far the orders by deadline stray from it, as a share of the deadline.
+const STRAY: f64 = 0.5;
+
+/// Puts the stops of a tour in again, in `times` orders: any, and about that of their deadlines, by turns. A tour is complete as soon as its demands
 /// are met; where stops are worth something in themselves, what is won is filled with others, the best gain
 /// for effort first. Every tour goes to `kept`.
 pub fn reinsert(
@@ -25,8 +29,18 @@ pub fn reinsert(
 ) {
     let mut order = stops.to_vec();
     let empty = State::new(instance);
-    for _ in 0..times {
+    for turn in 0..times {
         order.shuffle(rng);
+        if turn % 2 == 1 && stops.iter().any(|&c| instance.candidates[c as usize].due_s.is_finite())
+        {
+            let mut late = |&c: &u32| {
+                let stray = 1.0 + STRAY * (2.0 * rng.random::<f64>() - 1.0);
+                (instance.candidates[c as usize].due_s * stray, c)
+            };
+            let mut keyed: Vec<(f64, u32)> = order.iter().map(&mut late).collect();
+            keyed.sort_by(|a, b| a.0.total_cmp(&b.0));
+            order = keyed.into_iter().map(|(_, c)| c).collect();
+        }
         let mut state = empty.clone();
         for &candidate in &order {
             if state.helps(candidate)

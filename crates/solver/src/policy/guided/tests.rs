@@ -92,8 +92,9 @@ fn every_part_only_adds() {
 
 #[test]
 fn the_whole_effort_is_at_most_32_roll_outs() {
-    for document in drawn(4) {
-        let (_, roll_outs) = best(&document, Effort::WHOLE);
+    let problems = [Problem::KCoverage, Problem::Reward, Problem::Mobile];
+    for (document, problem) in drawn(4).iter().zip(problems) {
+        let (_, roll_outs) = best(document, Effort::whole(problem));
         assert!((2..=32).contains(&roll_outs), "{roll_outs}");
     }
 }
