@@ -105,7 +105,13 @@ impl StopRule for Watch<'_> {
 }
 
 fn empty(plan: Plan) -> Outcome {
-    Outcome { plan, iterations: Vec::new(), contenders: Vec::new(), policy: PolicyUse::Unused }
+    Outcome {
+        plan,
+        iterations: Vec::new(),
+        contenders: Vec::new(),
+        policy: PolicyUse::Unused,
+        unfinished: None,
+    }
 }
 
 fn message(panic: &(dyn std::any::Any + Send)) -> String {
