@@ -1,5 +1,5 @@
 //! The paper's algorithms beside the proven optimum: `paper LIMIT_S COUNT SOLVERS CELL...`, solvers separated by
-//! commas, a cell being as in `cells`; `STEP_S`, `APP_STEP_S` and `LITERAL` in the environment set options. Each line:
+//! commas, a cell being as in `cells`; `STEP_S`, `APP_STEP_S`, `LITERAL`, `SLACK`, `BETA` and `Q0` in the environment set options. Each line:
 //! scenarios finished, feasible ones, mean objective and mean gap to the optimum over those, median and largest time.
 #![allow(clippy::disallowed_methods, clippy::print_stdout, clippy::unwrap_used)]
 

@@ -62,22 +62,25 @@ fn trees_are_legal_and_beat_no_optimum() {
     assert!(mst != cmst);
 }
 
-/// Five sensors on a cross around the station: 10 m, 20 m and 30 m to the east, 12 m to the north, 40 m to the
-/// west; a battery of 1 J each, 1 J per metre.
-fn cross(capacity_j: f64) -> Scenario {
-    let places = [[10.0, 0.0], [20.0, 0.0], [30.0, 0.0], [0.0, 12.0], [-40.0, 0.0]];
-    let mut document = draw(5, capacity_j, 1);
+/// Sensors at these places around the station with these rewards; a battery of 1 J each, 1 J per metre.
+fn field(places: &[[f64; 2]], rewards: &[f64], capacity_j: f64) -> Scenario {
+    let mut document = draw(places.len() as u32, capacity_j, 1);
     document.charger.start_m = [0.0, 0.0];
     document.charger.end_m = Some([0.0, 0.0]);
     document.charger.travel_jpm = 1.0;
     for (sensor, place) in document.sensors.iter_mut().zip(places) {
-        sensor.position_m = Some(place);
-        sensor.battery_j = 1.0;
+        (sensor.position_m, sensor.battery_j) = (Some(*place), 1.0);
     }
-    for request in &mut document.requests {
-        (request.residual_j, request.reward) = (Some(0.0), Some(1.0));
+    for (request, reward) in document.requests.iter_mut().zip(rewards) {
+        (request.residual_j, request.reward) = (Some(0.0), Some(*reward));
     }
     parsed(&document)
+}
+
+/// Five sensors on a cross: 10 m, 20 m and 30 m to the east, 12 m to the north, 40 m to the west.
+fn cross(capacity_j: f64) -> Scenario {
+    let places = [[10.0, 0.0], [20.0, 0.0], [30.0, 0.0], [0.0, 12.0], [-40.0, 0.0]];
+    field(&places, &[1.0; 5], capacity_j)
 }
 
 #[test]
@@ -98,6 +101,14 @@ fn the_tree_of_a_cross_is_the_cross() {
 }
 
 #[test]
+fn branches_beyond_the_capacity_are_not_joined() {
+    // Both would take 81.8 J: joined, the far one, which is worth most, would be left for the near one.
+    let line = field(&[[20.0, 0.0], [39.9, 0.0]], &[1.0, 10.0], 81.5);
+    assert_eq!(ids(&plan(&line, SolverName::Cmst, &PaperOptions::default())), ["s2"]);
+    assert_eq!(ids(&plan(&line, SolverName::Mst, &PaperOptions::default())), ["s1"]);
+}
+
+#[test]
 fn limits_end_app_without_a_tour() {
     let scenario = parsed(&draw(14, 1_000_000.0, 5));
     let limits = [(2_000, AMPLE, Unfinished::Memory), (1 << 30, 20, Unfinished::Budget)];
@@ -107,4 +118,39 @@ fn limits_end_app_without_a_tour() {
         assert_eq!(outcome.unfinished, Some(expected));
         assert!(outcome.plan.stops.is_empty());
     }
+}
+
+/// Sensors in clusters far from the station, each worth little, with others near it that are worth more for
+/// their detour: what looks best first is not what a tour should go for.
+fn clusters(seed: u64) -> Scenario {
+    let mut document = draw(15, 100.0 + 15.0 * (seed % 11) as f64, seed);
+    let charger = &mut document.charger;
+    (charger.start_m, charger.end_m, charger.travel_jpm) = ([0.0, 0.0], Some([0.0, 0.0]), 1.0);
+    let count = 2 + seed as usize % 3;
+    for (i, (sensor, request)) in
+        document.sensors.iter_mut().zip(&mut document.requests).enumerate()
+    {
+        let cluster = i % (count + 1);
+        let turn = std::f64::consts::TAU * cluster as f64 / count as f64 + seed as f64;
+        let far_m = if cluster == count { 6.0 + i as f64 } else { 40.0 };
+        let spread = sensor.position_m.unwrap().map(|side| (side - 500.0) / 250.0);
+        sensor.position_m = Some([far_m * turn.cos() + spread[0], far_m * turn.sin() + spread[1]]);
+        sensor.battery_j = 1.0;
+        request.residual_j = Some(0.0);
+        request.reward = Some(if cluster == count { 2.0 } else { 1.0 + seed as f64 % 2.0 });
+    }
+    parsed(&document)
+}
+
+#[test]
+fn app_keeps_its_quarter_where_the_nearest_is_not_the_best() {
+    let mut least = 1.0_f64;
+    for seed in 0..trials(60) {
+        let scenario = clusters(seed);
+        let best = optimum(&scenario).unwrap().objective;
+        let app = objective(&scenario, SolverName::App);
+        assert!(app >= 0.25 * best && app <= best + 1e-6, "{:?}: {app} {best}", scenario.name);
+        least = least.min(app / best);
+    }
+    println!("the least share of the optimum: {least:.3}");
 }

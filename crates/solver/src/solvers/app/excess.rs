@@ -118,11 +118,21 @@ impl<'a> Excess<'a> {
 
     /// The path to a place that collects most within a length, if that is no less than `least`; its last
     /// wiggle may go farther than its end.
-    pub fn largest(&self, to: usize, room: f64, least: u64) -> Option<(u64, f64, Vec<usize>)> {
+    pub fn largest(
+        &self,
+        to: usize,
+        room: f64,
+        least: u64,
+        budget: &mut Budget<'_>,
+    ) -> Result<Option<(u64, f64, Vec<usize>)>, Unfinished> {
         let mut best: Option<(u64, f64, u32, Vec<usize>)> = None;
         let limit = self.sorted.iter().position(|&place| place == to).unwrap_or(self.sorted.len());
         for near in 0..limit {
             let Some(&shortest) = self.kept[near].first() else { continue };
+            if budget.is_spent() {
+                return Err(Unfinished::Budget);
+            }
+            budget.spend();
             let left = room - self.paths[shortest as usize].length;
             let ahead: Vec<usize> =
                 self.sorted[near + 1..].iter().copied().filter(|&place| place != to).collect();
@@ -144,7 +154,8 @@ impl<'a> Excess<'a> {
                 }
             }
         }
-        best.map(|(reward, length, before, last)| (reward, length, self.trace_back(before, last)))
+        Ok(best
+            .map(|(reward, length, before, last)| (reward, length, self.trace_back(before, last))))
     }
 
     fn trace_back(&self, mut before: u32, mut after: Vec<usize>) -> Vec<usize> {

@@ -1,6 +1,7 @@
 //! The approximation algorithms that the paper compares with: one where a reward is sought within a
 //! capacity, one where moving sensors are counted within a time span.
 
+mod choice;
 mod excess;
 mod k_path;
 mod mobile;
@@ -8,44 +9,4 @@ mod orienteering;
 mod reward;
 mod time_expanded;
 
-use super::Budget;
-use super::paper::{Attempt, PaperOptions, is_step};
-use crate::instance::Instance;
-use crate::scenario::Objective;
-
-/// Recursion levels beyond which no tour could be that long.
-const MOST_LEVELS: u32 = 12;
-
-/// The algorithm of the scenario's objective.
-pub(super) fn app(
-    instance: &Instance<'_>,
-    options: &PaperOptions,
-    budget: &mut Budget<'_>,
-) -> Attempt {
-    match instance.scenario.objective {
-        Objective::MaxReward => reward::app(instance, options, budget),
-        Objective::MaxCount => mobile::app(instance, options, budget),
-        Objective::MinDistance => Attempt::finished(Vec::new()),
-    }
-}
-
-/// What a scenario or the options lack for either algorithm to say anything of it.
-pub(super) fn app_needs(instance: &Instance<'_>, options: &PaperOptions) -> Option<&'static str> {
-    let free = instance.demands.demands.is_empty();
-    let (holds, needs) = match instance.scenario.objective {
-        Objective::MaxReward => (
-            free && instance.untimed && instance.metric && instance.timespan_s.is_infinite(),
-            "a capacity to be the only limit, and straight ways",
-        ),
-        Objective::MaxCount => (
-            free && instance.timespan_s.is_finite()
-                && instance.capacity_j.is_infinite()
-                && is_step(options.app_step_s)
-                && (0.0..1.0).contains(&options.app_epsilon)
-                && (1..=MOST_LEVELS).contains(&options.app_level),
-            "a time span and no capacity, in steps above 0, epsilon in [0, 1) and 1 to 12 levels",
-        ),
-        Objective::MinDistance => (false, "the largest reward or number to be sought"),
-    };
-    (!holds).then_some(needs)
-}
+pub(super) use choice::{app, app_needs};

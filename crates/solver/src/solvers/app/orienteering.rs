@@ -51,18 +51,15 @@ pub fn orienteering(
         let reached = graph.length(graph.start(), from);
         let excess = Excess::from(graph, from, graph.bound - reached, memory_bytes, budget)?;
         for to in (0..graph.size).filter(|&to| to != from && to != graph.start()) {
-            if budget.is_spent() {
-                return Err(Unfinished::Budget);
-            }
             let left = graph.length(to, graph.end());
             let room = graph.bound - reached - left;
-            if let Some((reward, length, path)) = excess.largest(to, room, best.0) {
+            let found = excess.largest(to, room, best.0, budget)?;
+            if let Some((reward, length, path)) = found {
                 let length = reached + length + left;
                 if reward > best.0 || reward == best.0 && length < best.1 {
                     best = (reward, length, path);
                 }
             }
-            budget.spend();
         }
     }
     best.2.retain(|&place| place < graph.start());
