@@ -8,6 +8,7 @@ use voltour_solver::check::check;
 use voltour_solver::explain::{Explanation, explain};
 use voltour_solver::plan::Plan;
 use voltour_solver::scenario::Scenario;
+use voltour_solver::solvers::PaperOptions;
 
 use super::policies::Choice;
 use super::solve::{Limits, Planning, solver, time};
@@ -89,7 +90,8 @@ pub fn run(args: Args) -> Result<ExitCode, Failure> {
         None => {
             let limits = limits.share(SOLVING);
             let policy = args.policy.policy(solver, &scenario)?;
-            Planning { solver, seed: args.seed, limits, policy }.plan(&scenario)?
+            Planning { solver, seed: args.seed, limits, policy, paper: PaperOptions::default() }
+                .plan(&scenario)?
         }
     };
     let limits = limits.after(watch.elapsed());

@@ -10,6 +10,7 @@ pub mod generate;
 mod input;
 pub mod operator;
 mod out;
+mod paper;
 pub mod policies;
 mod pretty;
 pub mod serve;

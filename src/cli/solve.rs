@@ -6,12 +6,14 @@ use std::process::ExitCode;
 use std::time::Duration;
 
 use voltour_solver::check::check;
+use voltour_solver::instance::Instance;
 use voltour_solver::plan::Plan;
 use voltour_solver::policy::QFunction;
 use voltour_solver::scenario::Scenario;
-use voltour_solver::solvers::{self, Options, PolicyUse, SolverName};
+use voltour_solver::solvers::{Options, PaperOptions, PolicyUse, SolverName, solve_with};
 use voltour_solver::stop::StopRule;
 
+use super::paper::{Paper, tell};
 use super::policies::Choice;
 use super::stopwatch::Stopwatch;
 use super::{Failure, documents, pretty};
@@ -26,7 +28,8 @@ const DEFAULT_LIMIT: Duration = Duration::from_secs(1);
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Solvers: auto (what the service runs), baseline, exact, dqn, greedy, nearest, random, and the
-comparison algorithms acs, dp, mst, cmst, app. Not every version has every solver.
+comparison algorithms: acs and dp for min_distance, mst and cmst for max_reward, app for max_reward
+and max_count. Of these dp and app show no tour where a limit ends them before they are finished.
 
 Exit codes:
   0  the tour keeps every constraint
@@ -56,6 +59,9 @@ pub struct Args {
     /// The trained policy.
     #[command(flatten)]
     pub policy: Choice,
+    /// The comparison algorithms.
+    #[command(flatten)]
+    pub paper: Paper,
     /// Also draw the plan into this file
     #[arg(long, value_name = "FILE")]
     pub svg: Option<PathBuf>,
@@ -74,7 +80,8 @@ pub fn run(args: Args) -> Result<ExitCode, Failure> {
     let limits = Limits::new(args.time_limit, args.iterations, DEFAULT_LIMIT);
     let scenario = documents::scenario(&args.scenario)?;
     let policy = args.policy.policy(solver, &scenario)?;
-    let plan = Planning { solver, seed: args.seed, limits, policy }.plan(&scenario)?;
+    let paper = args.paper.options();
+    let plan = Planning { solver, seed: args.seed, limits, policy, paper }.plan(&scenario)?;
     // The picture first: where it cannot be written, there is no plan on standard output either.
     if let Some(path) = &args.svg {
         documents::write(Some(path), &svg::picture(&scenario, &plan))?;
@@ -97,22 +104,26 @@ pub(super) struct Planning {
     pub seed: u64,
     pub limits: Limits,
     pub policy: Option<Policy>,
+    pub paper: PaperOptions,
 }
 
 impl Planning {
     /// Solves and checks.
     pub fn plan(self, scenario: &Scenario) -> Result<Plan, Failure> {
-        let Self { solver, seed, limits, policy } = self;
+        let Self { solver, seed, limits, policy, paper } = self;
         let watch = Stopwatch::start();
         let clock = SystemClock;
         let limited = policy
             .as_ref()
             .map(|policy| Limited::new(&*policy.function, &clock, limits.policy_share()));
         let policy = limited.as_ref().map(|policy| policy as &dyn QFunction);
-        let solved =
-            limits.within(|stop| solvers::solve(scenario, &Options { solver, seed, stop, policy }));
+        let solved = limits.within(|stop| {
+            let options = Options { solver, seed, stop, policy };
+            solve_with(&Instance::new(scenario), &options, &paper)
+        });
         let outcome = solved.map_err(|error| Failure::input(format!("--solver: {error}")))?;
         warn(&outcome.policy);
+        tell(solver.name(), outcome.unfinished);
         let mut plan = outcome.plan;
         plan.elapsed_s = watch.elapsed().as_secs_f64();
         let broken = check(scenario, &plan);

@@ -3,7 +3,9 @@
 
 use voltour_solver::plan::{Plan, Status};
 use voltour_solver::scenario::Scenario;
-use voltour_solver::solvers::{Options, Outcome, SolverName, Unavailable, solve};
+use voltour_solver::solvers::{
+    Options, Outcome, SolverName, Unavailable, Unfinished, empty_plan, solve,
+};
 
 use super::tests::{closed, contest, unpacked};
 use super::{Contest, Solve, plan};
@@ -75,4 +77,26 @@ async fn a_proof_that_the_check_refuses_gives_way_to_the_next() {
         assert_eq!(provenance["asked"], "exact");
         assert_ne!(provenance["winner"], "exact");
     }
+}
+
+/// Has no tour to show where it is asked for, since it came to no end.
+fn does_not_finish(scenario: &Scenario, options: &Options<'_>) -> Result<Outcome, Unavailable> {
+    let mut outcome = solve(scenario, &Options { solver: SolverName::Greedy, ..*options })?;
+    if options.solver == SolverName::App {
+        outcome.plan = empty_plan(scenario);
+        outcome.unfinished = Some(Unfinished::Memory);
+    }
+    Ok(outcome)
+}
+
+#[tokio::test]
+async fn an_algorithm_that_does_not_finish_gives_way_to_the_next() {
+    let bench = Bench::new().await;
+    bench.submit("s1").await;
+    let batch = closed(&bench).await;
+    let contest = Contest { solve: does_not_finish, ..contest(&bench, SolverName::App) };
+    let new = plan(&batch, &contest).unwrap().new;
+    assert_eq!(new.stops.len(), 1);
+    let provenance = &unpacked(&new.envelope)["provenance"];
+    assert!(provenance["fallback_reason"].as_str().unwrap().contains("did not finish"));
 }

@@ -63,6 +63,9 @@ impl<'a> Watch<'a> {
         let judged = || {
             let outcome = run()?;
             self.tried.replace(outcome.policy.clone());
+            if outcome.unfinished.is_some() && outcome.plan.stops.is_empty() {
+                return Err("it did not finish and has no tour".to_owned());
+            }
             let broken = check(scenario, &outcome.plan);
             let broken: Vec<String> = broken.iter().take(10).map(ToString::to_string).collect();
             if broken.is_empty() { Ok(outcome) } else { Err(broken.join("; ")) }
@@ -105,7 +108,13 @@ impl StopRule for Watch<'_> {
 }
 
 fn empty(plan: Plan) -> Outcome {
-    Outcome { plan, iterations: Vec::new(), contenders: Vec::new(), policy: PolicyUse::Unused }
+    Outcome {
+        plan,
+        iterations: Vec::new(),
+        contenders: Vec::new(),
+        policy: PolicyUse::Unused,
+        unfinished: None,
+    }
 }
 
 fn message(panic: &(dyn std::any::Any + Send)) -> String {

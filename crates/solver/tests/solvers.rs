@@ -5,7 +5,7 @@ mod mixed;
 
 use voltour_solver::check::check;
 use voltour_solver::plan::Plan;
-use voltour_solver::scenario::Scenario;
+use voltour_solver::scenario::{Objective, Scenario};
 use voltour_solver::solvers::{Options, Outcome, SolverName, empty_plan, plan_from_order, solve};
 use voltour_solver::stop::MaxIterations;
 
@@ -131,11 +131,13 @@ fn the_order_of_the_document_does_not_change_the_value() {
 }
 
 #[test]
-fn solvers_that_are_not_there_say_so() {
-    let scenario = Scenario::from_document(&mixed::draw(3, 1)).unwrap();
+fn solvers_that_are_not_for_a_problem_say_so() {
+    let mut document = mixed::draw(3, 1);
+    document.objective = Objective::MaxReward;
+    let scenario = Scenario::from_document(&document).unwrap();
     let options =
         Options { solver: SolverName::Acs, seed: 0, stop: &MaxIterations(1), policy: None };
-    assert_eq!(solve(&scenario, &options).unwrap_err().0, SolverName::Acs);
+    assert_eq!(solve(&scenario, &options).unwrap_err().solver, SolverName::Acs);
     assert_eq!("cmst".parse::<SolverName>().unwrap().to_string(), "cmst");
     assert!("best".parse::<SolverName>().is_err());
 }

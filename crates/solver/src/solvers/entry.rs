@@ -4,7 +4,9 @@ use rand_pcg::Pcg64Mcg;
 use rand_pcg::rand_core::SeedableRng;
 
 use super::plan_of::plan_of;
-use super::{Budget, SolverName, auto, baseline, dqn, exact, greedy, random};
+use super::{
+    Budget, PaperOptions, SolverName, Unfinished, auto, baseline, dqn, exact, greedy, paper, random,
+};
 use crate::instance::Instance;
 use crate::plan::{Plan, Status};
 use crate::policy::guided::Effort;
@@ -37,6 +39,8 @@ pub struct Outcome {
     pub contenders: Vec<Contender>,
     /// How the policy fared.
     pub policy: PolicyUse,
+    /// What ended one of the paper's algorithms before it was finished.
+    pub unfinished: Option<Unfinished>,
 }
 
 /// How the policy fared in a solve.
@@ -67,10 +71,15 @@ pub struct Contender {
     pub iterations: u64,
 }
 
-/// The solver is not in this version.
+/// The solver is not for this problem.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("the solver \"{0}\" is not in this version")]
-pub struct Unavailable(pub SolverName);
+#[error("the solver \"{solver}\" is not for this problem: it needs {needs}")]
+pub struct Unavailable {
+    /// The solver asked for.
+    pub solver: SolverName,
+    /// What its problem has and this one has not.
+    pub needs: &'static str,
+}
 
 /// An order of candidates, with the name of the solver that found it.
 pub(super) struct Found {
@@ -94,7 +103,7 @@ pub(super) enum Claim {
 /// Solves a scenario. Same scenario, solver, seed and number of iterations: same plan.
 ///
 /// # Errors
-/// The solver is not in this version.
+/// The solver is not for this problem.
 pub fn solve(scenario: &Scenario, options: &Options<'_>) -> Result<Outcome, Unavailable> {
     solve_compiled(&Instance::new(scenario), options)
 }
@@ -102,10 +111,22 @@ pub fn solve(scenario: &Scenario, options: &Options<'_>) -> Result<Outcome, Unav
 /// [`solve`] of a scenario that is compiled already, so that the two can be timed apart.
 ///
 /// # Errors
-/// The solver is not in this version.
+/// The solver is not for this problem.
 pub fn solve_compiled(
     instance: &Instance<'_>,
     options: &Options<'_>,
+) -> Result<Outcome, Unavailable> {
+    solve_with(instance, options, &PaperOptions::default())
+}
+
+/// [`solve_compiled`] with other options for the paper's algorithms.
+///
+/// # Errors
+/// The solver is not for this problem.
+pub fn solve_with(
+    instance: &Instance<'_>,
+    options: &Options<'_>,
+    paper: &PaperOptions,
 ) -> Result<Outcome, Unavailable> {
     let mut budget = Budget::new(options.stop);
     let mut rng = Pcg64Mcg::seed_from_u64(options.seed);
@@ -116,6 +137,7 @@ pub fn solve_compiled(
         claim: Claim::None,
     };
     let mut policy = PolicyUse::Unused;
+    let mut unfinished = None;
     let found = match options.solver {
         SolverName::Auto => {
             let (found, fared) = auto::auto(instance, options.policy, &mut rng, &mut budget);
@@ -139,24 +161,27 @@ pub fn solve_compiled(
             vec![single(greedy::greedy(instance, &mut budget), "insertion", &budget)]
         }
         SolverName::Nearest => {
-            vec![single(greedy::nearest(instance, &mut budget), "walk", &budget)]
+            vec![single(greedy::nearest(instance, paper.literal, &mut budget), "walk", &budget)]
         }
         SolverName::Random => {
-            vec![single(random::random(instance, &mut rng, &mut budget), "walks", &budget)]
+            vec![single(random::random(instance, paper, &mut rng, &mut budget), "walks", &budget)]
         }
         SolverName::Exact => {
             vec![exact::solve(instance, &[], exact::Effort::Whole, &mut rng, &mut budget)]
         }
         SolverName::Acs | SolverName::Dp | SolverName::Mst | SolverName::Cmst | SolverName::App => {
-            return Err(Unavailable(options.solver));
+            let (attempt, phase) =
+                paper::solve(instance, options.solver, paper, &mut rng, &mut budget)?;
+            unfinished = attempt.unfinished;
+            vec![single(attempt.order, phase, &budget)]
         }
     };
-    Ok(outcome(instance, &found, policy))
+    Ok(Outcome { policy, unfinished, ..outcome(instance, &found) })
 }
 
 /// The plan of the best tour found, the earlier among equals; each solver is a contender. What one has
 /// proven holds for the tours of all.
-fn outcome(instance: &Instance<'_>, all: &[Found], policy: PolicyUse) -> Outcome {
+fn outcome(instance: &Instance<'_>, all: &[Found]) -> Outcome {
     let value = |found: &Found| Value::of(instance, &Tour::new(instance, &found.order));
     let best = all.iter().min_by(|a, b| value(a).compare(&value(b)));
     let plan = |found: &Found| {
@@ -179,7 +204,8 @@ fn outcome(instance: &Instance<'_>, all: &[Found], policy: PolicyUse) -> Outcome
         plan: best.map_or_else(|| plan_of(instance, &[], SolverName::Auto.name()), plan),
         iterations: all.iter().flat_map(|found| found.iterations.clone()).collect(),
         contenders: all.iter().map(contender).collect(),
-        policy,
+        policy: PolicyUse::Unused,
+        unfinished: None,
     }
 }
 

@@ -16,19 +16,19 @@ pub enum SolverName {
     Exact,
     /// Cheapest feasible insertion, what cannot wait first.
     Greedy,
-    /// The paper's literal greedy: always the nearest sensor.
+    /// The paper's greedy: always the nearest sensor that helps.
     Nearest,
     /// The paper's random walk, many times.
     Random,
     /// Ant colony system.
     Acs,
-    /// Dynamic programming over colourful paths.
+    /// Dynamic programming over colourful paths of the time-discretised graph.
     Dp,
     /// Minimum spanning tree.
     Mst,
     /// Capacitated minimum spanning tree.
     Cmst,
-    /// The approximation algorithm.
+    /// The approximation algorithm of the scenario's problem.
     App,
 }
 
