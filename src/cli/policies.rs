@@ -19,6 +19,9 @@ pub struct Choice {
     /// Folder with trained policies, k_coverage.onnx, reward.onnx, mobile.onnx, in place of those in this binary
     #[arg(long, value_name = "DIR")]
     pub policy_folder: Option<PathBuf>,
+    /// No trained policy: the plan that a policy which failed left to the other solvers
+    #[arg(long, conflicts_with_all = ["model", "policy_folder"])]
+    pub no_policy: bool,
 }
 
 impl Choice {
@@ -40,6 +43,9 @@ impl Choice {
         solver: SolverName,
         scenario: &Scenario,
     ) -> Result<Option<Policy>, Failure> {
+        if self.no_policy {
+            return Ok(None);
+        }
         let problem = Problem::of(scenario.objective);
         let found = match (solver, self) {
             (SolverName::Auto | SolverName::Dqn, Self { model: Some(path), .. }) => {

@@ -107,6 +107,11 @@ fn a_policy_that_breaks_costs_nothing_but_itself() {
                 let policy = Breaks { problem, after, calls: AtomicUsize::new(0), how };
                 let outcome = solved(&scenario, solver, 300, Some(&policy));
                 assert!(outcome.plan.status.is_feasible(), "{solver} after {after}");
+                if matches!(outcome.policy, PolicyUse::Failed(_)) {
+                    let without = solved(&scenario, solver, 300, None);
+                    assert_eq!(outcome.plan, without.plan, "{solver} after {after}: as without it");
+                    assert_eq!(outcome.iterations, without.iterations, "{solver} after {after}");
+                }
                 assert!(!outcome.plan.stops.is_empty(), "{solver} after {after}: not given up");
                 let calls = policy.calls.load(Ordering::Relaxed);
                 let failed = matches!(outcome.policy, PolicyUse::Failed(_));

@@ -27,6 +27,12 @@ impl<'a> Budget<'a> {
         !self.stopped
     }
 
+    /// Forgets the iterations after the first so many, of a search whose outcome is thrown away. Where the rule
+    /// has said stop, that stands.
+    pub fn take_back(&mut self, to: u64) {
+        self.iterations = self.iterations.min(to);
+    }
+
     /// Runs a search on a part of this budget: at most `most` iterations, counted here too. The rule is
     /// heeded only after the first `least`, which the search is always given.
     pub fn part<T>(
