@@ -1,9 +1,13 @@
-# What CI runs. `just check` is the whole of it; the other recipes are its parts.
+# What CI runs. `just check` is the whole of it; the other recipes are its parts. `.ci/run` runs them in a clean
+# checkout, the tests by the command that the README gives.
 
 python := justfile_directory() / "target/python"
 
 # Everything that must hold before a change lands.
-check: fmt lint layers test docs client onnx
+check: checks test
+
+# All of it but the tests in Rust.
+checks: fmt lint layers docs client onnx
 
 # Formatting.
 fmt:
