@@ -300,6 +300,25 @@ fn bad_arguments_are_one_line() {
 }
 
 #[test]
+fn options_of_comparison_algorithms_are_held_to_their_rules() {
+    for (option, value, rule) in [
+        ("--dp-step", "0", "above 0"),
+        ("--dp-step", "NaN", "above 0"),
+        ("--app-step", "inf", "above 0"),
+        ("--app-epsilon", "1", "below 1"),
+        ("--app-level", "13", "1..=12"),
+        ("--memory-limit", "0", "1.."),
+    ] {
+        let output = voltour(&["solve", "-", "--solver", "dp", option, value], SMALL);
+        let said = text(&output.stderr);
+        assert_eq!(code(&output), 2, "{option} {value}");
+        assert!([option, value, rule].iter().all(|part| said.contains(part)), "{said}");
+    }
+    let line = refused(&voltour(&["solve", "-", "--solver", "mst"], SMALL));
+    assert!(line.contains("\"mst\" is not for this problem: it needs"), "{line}");
+}
+
+#[test]
 fn every_preset_is_drawn_solved_checked_and_pictured() {
     let folder = tempfile::tempdir().unwrap();
     for preset in ["k_coverage", "reward", "mobile"] {

@@ -13,16 +13,16 @@ pub struct Paper {
     #[arg(long, value_name = "MIB", value_parser = clap::value_parser!(u32).range(1..))]
     pub memory_limit: Option<u32>,
     /// dp: step of the time, in seconds [default: 1]
-    #[arg(long, value_name = "S")]
+    #[arg(long, value_name = "S", value_parser = step)]
     pub dp_step: Option<f64>,
     /// app among moving sensors: step of the time, in seconds [default: 300]
-    #[arg(long, value_name = "S")]
+    #[arg(long, value_name = "S", value_parser = step)]
     pub app_step: Option<f64>,
     /// app among moving sensors: recursion level, 1 to 12 [default: 3]
-    #[arg(long, value_name = "L")]
+    #[arg(long, value_name = "L", value_parser = clap::value_parser!(u32).range(1..=12))]
     pub app_level: Option<u32>,
     /// app among moving sensors: plan with charges to 1 - E of the level [default: 0]
-    #[arg(long, value_name = "E")]
+    #[arg(long, value_name = "E", value_parser = epsilon)]
     pub app_epsilon: Option<f64>,
     /// nearest, random: go to any sensor in reach, not only to those that help
     #[arg(long)]
@@ -45,6 +45,21 @@ impl Paper {
             ..default
         }
     }
+}
+
+/// A step of time in seconds.
+fn step(text: &str) -> Result<f64, String> {
+    number(text, "a finite number above 0", |step| step > 0.0 && step.is_finite())
+}
+
+/// A share that leaves something.
+fn epsilon(text: &str) -> Result<f64, String> {
+    number(text, "at least 0 and below 1", |epsilon| (0.0..1.0).contains(&epsilon))
+}
+
+fn number(text: &str, rule: &str, holds: impl Fn(f64) -> bool) -> Result<f64, String> {
+    let number = text.parse().ok().filter(|number| holds(*number));
+    number.ok_or_else(|| format!("must be {rule}"))
 }
 
 /// Says on standard error that an algorithm did not come to its end, and which limit would have to give.

@@ -1,6 +1,7 @@
 //! [`Ahead`]: what each action would leave of the others.
 
 use super::Feature;
+use super::encoder::sq;
 use super::pressure::Pressure;
 use crate::framework::{Action, Episode, Insert, Scales, State};
 use crate::solvers::gain;
@@ -44,10 +45,9 @@ impl Ahead {
         mut set: impl FnMut(Feature, f64),
     ) {
         let after = self.after[index];
-        let dearer = after.dearer / scales.effort;
         set(Feature::Loses, after.lost);
         set(Feature::Breaks, after.broken / open.max(1) as f64);
-        set(Feature::Dearer, dearer / (1.0 + dearer.abs()));
+        set(Feature::Dearer, sq(after.dearer / scales.effort));
     }
 }
 

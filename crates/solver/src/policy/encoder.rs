@@ -92,7 +92,7 @@ fn edges(
 }
 
 /// A number without bound, between -1 and 1.
-fn sq(x: f64) -> f64 {
+pub(super) fn sq(x: f64) -> f64 {
     if x.is_infinite() { x.signum() } else { x / (1.0 + x.abs()) }
 }
 

@@ -22,7 +22,7 @@ pub struct Args {
     /// paper's tables and the hard ones beyond them].
     #[arg(long, value_delimiter = ',', value_name = "CELL")]
     cells: Vec<Cell>,
-    /// Ways to build a tour, `[control-]WHAT[+order][+search]`, or a solver; `control-` is the same search without
+    /// Ways to build a tour, `[control-]WHAT[+order[N]][+search]`, or a solver; `control-` is the same search without
     /// learning.
     #[arg(
         long,

@@ -21,6 +21,7 @@ pub struct Run<'a> {
     out: PathBuf,
     curve: Vec<Point>,
     best: Weights,
+    command: String,
     seconds_before: f64,
     watch: Stopwatch,
     losses: Mean,
@@ -59,11 +60,26 @@ impl<'a> Run<'a> {
         from: Option<Checkpoint>,
     ) -> Self {
         let fresh = training.learner.average.weights().clone();
-        let (curve, seconds_before, best) =
-            from.map_or((Vec::new(), 0.0, fresh), |c| (c.run.curve, c.run.seconds, c.best));
+        // One that goes on keeps the command that it began with: that is the one with the options.
+        let (curve, seconds_before, best, command) = from.map_or_else(
+            || (Vec::new(), 0.0, fresh, command(std::env::args().skip(1))),
+            |c| (c.run.curve, c.run.seconds, c.best, c.run.command),
+        );
         let (losses, totals) = (Mean::default(), Mean::default());
         let watch = Stopwatch::start();
-        Self { training, trials, problem, out, curve, best, seconds_before, watch, losses, totals }
+        Self {
+            training,
+            trials,
+            problem,
+            out,
+            curve,
+            best,
+            command,
+            seconds_before,
+            watch,
+            losses,
+            totals,
+        }
     }
 
     /// Trains to the end, or until interrupted; what is reached is saved either way.
@@ -113,7 +129,7 @@ impl<'a> Run<'a> {
         let checkpoint = Checkpoint {
             run: checkpoint::Run {
                 problem: self.problem.name().to_owned(),
-                command: command(std::env::args().skip(1)),
+                command: self.command.clone(),
                 options: self.training.options.clone(),
                 steps: progress.step,
                 rounds: self.training.rounds(),
@@ -133,7 +149,7 @@ impl<'a> Run<'a> {
     }
 }
 
-/// What the command line asked for; where its files lie is nobody's business but this machine's.
+/// What the command line asked for, but not where its output went, which says nothing of the model.
 fn command(mut arguments: impl Iterator<Item = String>) -> String {
     let mut command = "voltour-train".to_owned();
     while let Some(argument) = arguments.next() {

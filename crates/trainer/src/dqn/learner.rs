@@ -107,10 +107,7 @@ impl Learner {
             loss += f64::from(part);
             gradient.iter_mut().zip(slope).for_each(|(sum, g)| *sum += g);
         }
-        let width = options.width;
-        for column in options.unseen()? {
-            gradient[column * width..(column + 1) * width].fill(0.0);
-        }
+        options.blind(&mut gradient)?;
         finite("the loss", loss.is_finite())?;
         finite("the gradient", clip(&mut gradient, options.clip).is_finite())?;
         let rate = learning_rate(options, step as f64 / options.steps as f64);

@@ -135,21 +135,20 @@ impl Options {
         Shape { width: self.width, rounds: self.rounds, kernels: self.kernels.clone() }
     }
 
-    /// The columns of the features that the network does not see.
+    /// Sets to 0, among the parameters or their gradient, those that would read a feature which the network does
+    /// not see. What is added to the output, the reward, stays known.
     ///
     /// # Errors
     /// A name is no feature's.
-    pub fn unseen(&self) -> Result<Vec<usize>> {
-        let column = |name: &String| {
-            let named = Feature::ALL.iter().find(|f| f.name().eq_ignore_ascii_case(name));
-            let rule = "must be a feature of docs/policy.md";
-            named.map(|f| f.column()).ok_or(Error::Option {
-                name: "without",
-                value: name.clone(),
-                rule,
-            })
-        };
-        self.without.iter().map(column).collect()
+    pub fn blind(&self, parameters: &mut [f32]) -> Result<()> {
+        for name in &self.without {
+            let row = Feature::ALL.iter().position(|f| f.name().eq_ignore_ascii_case(name));
+            let rule = "must be a feature of crates/solver/src/policy/feature.rs";
+            let row = row.ok_or(Error::Option { name: "without", value: name.clone(), rule })?;
+            // The input's matrix comes first, a row a feature.
+            parameters[row * self.width..(row + 1) * self.width].fill(0.0);
+        }
+        Ok(())
     }
 
     /// The options, if a training can follow them.
@@ -158,7 +157,7 @@ impl Options {
     /// The first option that is outside its range.
     pub fn checked(self) -> Result<Self> {
         self.shape().checked()?;
-        self.unseen()?;
+        self.blind(&mut vec![0.0; self.shape().parameters()])?;
         for (name, value) in [
             ("steps", self.steps),
             ("updates", self.updates),

@@ -46,9 +46,7 @@ impl<'a> Training<'a> {
     /// An option has no meaning, or the device cannot be opened.
     pub fn new(options: Options, pool: Pool<'a>, device: Device) -> Result<Self> {
         let mut weights = Weights::random(options.shape(), options.seed);
-        for column in options.unseen()? {
-            weights.values_mut()[column * options.width..(column + 1) * options.width].fill(0.0);
-        }
+        options.blind(weights.values_mut())?;
         Self::resume(options, pool, Learner::new(weights, device)?, 0)
     }
 

@@ -33,9 +33,8 @@ enum Way {
     Guided {
         /// By the untrained rule in place of the policy.
         control: bool,
-        effort: Effort,
-        /// Whether the effort is that of the solver `dqn`, which differs by problem.
-        whole: bool,
+        /// `None`: that of the solver `dqn`, which differs by problem.
+        effort: Option<Effort>,
         /// Orders in which stops are put in again, if it names any.
         orders: Option<usize>,
         /// Local search on the best tour.
@@ -101,21 +100,18 @@ impl FromStr for Method {
         let digits = what.trim_start_matches(|c: char| !c.is_ascii_digit());
         let number = || digits.parse::<usize>().map_err(|_| UnknownMethod(text.to_owned()));
         let none = Effort { greedy: false, ..Effort::GREEDY };
-        let mut effort = match what.trim_end_matches(|c: char| c.is_ascii_digit()) {
-            "greedy" => Effort::GREEDY,
+        let effort = match what.trim_end_matches(|c: char| c.is_ascii_digit()) {
+            "greedy" => Some(Effort::GREEDY),
             "sample" => {
-                Effort { samples: number()?, temperature: Effort::SHARE.temperature, ..none }
+                let temperature = Effort::SHARE.temperature;
+                Some(Effort { samples: number()?, temperature, ..none })
             }
-            "beam" => Effort { beam: number()?, ..none },
-            "look" => Effort { look_ahead: number()?, ..none },
-            "whole" | "as-long" => none,
+            "beam" => Some(Effort { beam: number()?, ..none }),
+            "look" => Some(Effort { look_ahead: number()?, ..none }),
+            "whole" | "as-long" => None,
             _ => return Err(UnknownMethod(text.to_owned())),
         };
-        if control {
-            effort.temperature = CONTROL_TEMPERATURE;
-        }
         let (mut search, mut orders, as_long) = (false, None, what == "as-long");
-        let whole = as_long || what == "whole";
         for part in parts {
             match part {
                 "search" => search = true,
@@ -126,7 +122,7 @@ impl FromStr for Method {
                 }
             }
         }
-        Ok(Self { name, way: Way::Guided { control, effort, whole, orders, search, as_long } })
+        Ok(Self { name, way: Way::Guided { control, effort, orders, search, as_long } })
     }
 }
 
@@ -181,11 +177,10 @@ impl Method {
                     seconds: spent(),
                 })
             }
-            Way::Guided { control, effort, whole, orders, search, as_long } => {
-                let (own, temperature) = (effort, effort.temperature);
-                let mut effort = if whole { Effort::whole(problem) } else { own };
+            Way::Guided { control, effort, orders, search, as_long } => {
+                let mut effort = effort.unwrap_or_else(|| Effort::whole(problem));
                 if control {
-                    effort.temperature = temperature;
+                    effort.temperature = CONTROL_TEMPERATURE;
                 }
                 effort.orders = orders.unwrap_or(effort.orders);
                 let rule = Rule(problem);

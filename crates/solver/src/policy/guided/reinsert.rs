@@ -16,9 +16,9 @@ use crate::solvers::gain;
 /// How far the orders by deadline stray from it, as a share of the deadline.
 const STRAY: f64 = 0.5;
 
-/// Puts the stops of a tour in again, in `times` orders: any, and about that of their deadlines, by turns. A tour is complete as soon as its demands
-/// are met; where stops are worth something in themselves, what is won is filled with others, the best gain
-/// for effort first. Every tour goes to `kept`.
+/// Puts the stops of a tour in again, in `times` orders: any, and about that of their deadlines, by turns. A
+/// tour is complete as soon as its demands are met; where stops are worth something in themselves, what is won is
+/// filled with others, the best gain for effort first. Every tour goes to `kept`.
 pub fn reinsert(
     instance: &Instance<'_>,
     definition: &dyn Definition,
@@ -29,17 +29,11 @@ pub fn reinsert(
 ) {
     let mut order = stops.to_vec();
     let empty = State::new(instance);
+    let due = stops.iter().any(|&c| instance.candidates[c as usize].due_s.is_finite());
     for turn in 0..times {
         order.shuffle(rng);
-        if turn % 2 == 1 && stops.iter().any(|&c| instance.candidates[c as usize].due_s.is_finite())
-        {
-            let mut late = |&c: &u32| {
-                let stray = 1.0 + STRAY * (2.0 * rng.random::<f64>() - 1.0);
-                (instance.candidates[c as usize].due_s * stray, c)
-            };
-            let mut keyed: Vec<(f64, u32)> = order.iter().map(&mut late).collect();
-            keyed.sort_by(|a, b| a.0.total_cmp(&b.0));
-            order = keyed.into_iter().map(|(_, c)| c).collect();
+        if turn % 2 == 1 && due {
+            sort_about_deadlines(instance, &mut order, rng);
         }
         let mut state = empty.clone();
         for &candidate in &order {
@@ -52,6 +46,17 @@ pub fn reinsert(
         fill(definition, &mut state);
         kept.offer(instance, state.tour());
     }
+}
+
+/// Sorts stops by their deadlines, each as if it were up to a share earlier or later.
+fn sort_about_deadlines(instance: &Instance<'_>, order: &mut [u32], rng: &mut Pcg64Mcg) {
+    let mut keyed: Vec<(f64, u32)> = Vec::with_capacity(order.len());
+    for &candidate in order.iter() {
+        let stray = 1.0 + STRAY * (2.0 * rng.random::<f64>() - 1.0);
+        keyed.push((instance.candidates[candidate as usize].due_s * stray, candidate));
+    }
+    keyed.sort_by(|a, b| a.0.total_cmp(&b.0));
+    order.iter_mut().zip(keyed).for_each(|(place, (_, candidate))| *place = candidate);
 }
 
 /// Inserts what still helps, the best gain for effort first.
