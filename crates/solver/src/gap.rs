@@ -9,12 +9,17 @@ use crate::tolerance::{agrees, tolerance};
 /// feasible, for its objective is then no rival of the bound.
 pub fn gap(status: Status, objective: f64, bound: Option<f64>) -> Option<f64> {
     let bound = bound.filter(|_| status.is_feasible())?;
-    let gap = match () {
-        () if agrees(objective, bound) => 0.0,
-        () if bound.abs() <= tolerance(0.0) => 1.0,
-        () => (objective - bound).abs() / bound.abs(),
-    };
-    gap.is_finite().then_some(gap)
+    Some(to_best(objective, bound)).filter(|gap| gap.is_finite())
+}
+
+/// `|f - f*| / |f*|` of an objective `f` with the best one, `f*`: 0 where they agree within the tolerance, 1
+/// where only the best is 0.
+pub fn to_best(objective: f64, best: f64) -> f64 {
+    match () {
+        () if agrees(objective, best) => 0.0,
+        () if best.abs() <= tolerance(0.0) => 1.0,
+        () => (objective - best).abs() / best.abs(),
+    }
 }
 
 /// A gap as it is read, such as `0.42 %`.

@@ -3,6 +3,7 @@
 //! The same options and seed give the same document for good: draws are made from the generator's
 //! raw bits here, and every number is rounded to a millionth of its unit.
 
+mod cell;
 mod draw;
 mod error;
 mod k_coverage;
@@ -10,6 +11,7 @@ mod mobile;
 mod options;
 mod reward;
 
+pub use cell::{Cell, FIRST_TEST_SEED, UnknownCell};
 pub use error::GenerateError;
 pub use k_coverage::{KCoverage, k_coverage};
 pub use mobile::{Mobile, mobile};

@@ -3,12 +3,11 @@
 use std::path::PathBuf;
 
 use rayon::prelude::*;
+use voltour_solver::generate::{Cell, FIRST_TEST_SEED};
 use voltour_solver::instance::Instance;
 use voltour_solver::policy::Problem;
 use voltour_solver::scenario::Scenario;
-use voltour_trainer::evaluate::{
-    Cell, FIRST_TEST_SEED, Method, Optima, Optimum, Run, Summary, Table,
-};
+use voltour_trainer::evaluate::{Method, Optima, Optimum, Run, Summary, Table};
 use voltour_trainer::network::Network;
 use voltour_trainer::onnx::Model;
 use voltour_trainer::{Error, Result};

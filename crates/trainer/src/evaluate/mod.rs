@@ -1,13 +1,9 @@
 //! How good a policy is: gaps to proven optima, cell by cell, beside the same search without learning.
 
-mod cell;
-mod gap;
 mod method;
 mod optima;
 mod table;
 
-pub use cell::{Cell, FIRST_TEST_SEED, UnknownCell};
-pub use gap::gap;
 pub use method::{METHODS, Method, Run, UnknownMethod};
 pub use optima::{Optima, Optimum};
 pub use table::{Summary, Table};

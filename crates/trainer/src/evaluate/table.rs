@@ -2,7 +2,9 @@
 
 use std::fmt::Write;
 
-use super::{Optimum, Run, gap};
+use voltour_solver::gap::to_best;
+
+use super::{Optimum, Run};
 
 /// One method in one cell.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -23,7 +25,7 @@ impl Summary {
     /// Adds what a method gave on a scenario that has a feasible tour.
     pub fn add(&mut self, run: &Run, best: f64) {
         self.feasible += 1;
-        self.gaps.extend(run.objective.map(|objective| gap(objective, best)));
+        self.gaps.extend(run.objective.map(|objective| to_best(objective, best)));
         self.roll_outs += run.roll_outs;
         self.valued += run.valued;
         self.seconds.push(run.seconds);

@@ -2,14 +2,12 @@
 
 use rand_pcg::rand_core::Rng;
 use rayon::prelude::*;
-use voltour_solver::generate;
+use voltour_solver::generate::{self, Cell};
 use voltour_solver::policy::Problem;
 use voltour_solver::scenario::{Document, Scenario};
 
 use crate::dqn::{index, stream, unit};
 use crate::error::{Error, Result};
-
-use crate::evaluate::Cell;
 
 use super::cells;
 
@@ -18,7 +16,7 @@ const CELL: u64 = 10;
 const REQUESTS: u64 = 11;
 
 /// What scenarios are for; no two draw the same, and neither draws what measures a policy in the end
-/// ([`crate::evaluate::FIRST_TEST_SEED`] and on).
+/// ([`voltour_solver::generate::FIRST_TEST_SEED`] and on).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Split {
     /// To learn from.

@@ -1,9 +1,7 @@
 //! The cells that scenarios are drawn from: sizes and settings around those of the paper's tables.
 
-use voltour_solver::generate::{KCoverage, Mobile, Reward};
+use voltour_solver::generate::{Cell, KCoverage, Mobile, Reward};
 use voltour_solver::policy::Problem;
-
-use crate::evaluate::Cell;
 
 /// The cells of a problem's training; each is drawn from as often.
 pub fn cells(problem: Problem) -> Vec<Cell> {

@@ -3,13 +3,11 @@
 use std::fmt;
 use std::str::FromStr;
 
-use voltour_solver::generate::{
-    GenerateError, KCoverage, Mobile, Reward, k_coverage, mobile, reward,
-};
-use voltour_solver::policy::Problem;
-use voltour_solver::scenario::Document;
+use super::{GenerateError, KCoverage, Mobile, Reward, k_coverage, mobile, reward};
+use crate::policy::Problem;
+use crate::scenario::Document;
 
-/// Seeds of the scenarios that measure a policy begin here; training and validation draw theirs elsewhere.
+/// Seeds of the scenarios that measure solvers begin here; those that policies are trained on lie below.
 pub const FIRST_TEST_SEED: u64 = 1 << 40;
 
 /// Scenarios that differ in nothing but their seed.
@@ -145,6 +143,26 @@ impl fmt::Display for Cell {
                 write!(f, "reward/{sensors}/{capacity_j}/{alpha}")
             }
             Self::Mobile(Mobile { sensors, .. }) => write!(f, "mobile/{sensors}"),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_cell_is_read_back_by_its_name() {
+        for problem in Problem::ALL {
+            let cells = Cell::of(problem);
+            assert!(cells.len() >= 3);
+            for cell in cells {
+                assert_eq!(cell.problem(), problem);
+                assert_eq!(cell.to_string().parse::<Cell>(), Ok(cell));
+            }
+        }
+        for wrong in ["", "mobile", "mobile/x", "k_coverage/48/3", "reward/1/2/3/4"] {
+            assert!(wrong.parse::<Cell>().is_err(), "{wrong}");
         }
     }
 }
