@@ -1,6 +1,7 @@
 //! The voltour service: takes charging requests, plans tours, keeps both.
 
 pub mod app;
+pub mod bench;
 pub mod cli;
 pub mod clock;
 pub mod config;
