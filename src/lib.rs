@@ -1,5 +1,6 @@
 //! The voltour service: takes charging requests, plans tours, keeps both.
 
+pub mod access;
 pub mod app;
 pub mod cli;
 pub mod clock;
@@ -18,6 +19,7 @@ pub mod scheduler;
 pub mod store;
 pub mod svg;
 pub mod telemetry;
+pub mod tls;
 
 /// The generated gRPC contract. Only the gRPC edge and the clients see it.
 #[allow(missing_docs, clippy::all, clippy::pedantic)]

@@ -5,7 +5,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-use super::{check, explain, generate, operator, policies, serve, solve};
+use super::{check, explain, generate, operator, policies, serve, solve, token};
 
 /// Plans the tours of mobile chargers in wireless rechargeable sensor networks.
 #[derive(Debug, Parser)]
@@ -51,6 +51,9 @@ pub enum Command {
     Policy(policies::Command),
     /// Run the scheduling service, or its demonstration
     Serve(serve::Args),
+    /// Make and revoke API tokens, on the service's machine
+    #[command(subcommand)]
+    Token(token::Command),
     /// What an operator does with a running service.
     #[command(flatten)]
     Operator(operator::Command),
@@ -65,6 +68,7 @@ pub fn run(cli: Cli) -> ExitCode {
         Command::Generate(args) => generate::run(args),
         Command::Policy(command) => policies::run(command),
         Command::Serve(args) => serve::run(args),
+        Command::Token(command) => token::run(command),
         Command::Operator(command) => operator::run(command),
     };
     done.unwrap_or_else(|failure| {

@@ -16,6 +16,7 @@ mod pretty;
 pub mod serve;
 pub mod solve;
 mod stopwatch;
+pub mod token;
 
 pub use command::{Cli, Command, run};
 pub use failure::Failure;

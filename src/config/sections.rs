@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use serde::Deserialize;
 
 use super::Span;
+use crate::access::Secret;
 
 /// All of it.
 #[derive(Clone, Debug, PartialEq, Default, Deserialize)]
@@ -15,6 +16,10 @@ pub struct Config {
     pub grpc: Grpc,
     /// `[rest]`
     pub rest: Rest,
+    /// `[tls]`
+    pub tls: Tls,
+    /// `[access]`
+    pub access: Access,
     /// `[store]`
     pub store: Store,
     /// `[planning]`
@@ -33,7 +38,7 @@ pub struct Config {
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Grpc {
-    /// Loopback only; port 0 takes a free one.
+    /// Loopback only as long as there is no token; port 0 takes a free one.
     pub listen: SocketAddr,
 }
 
@@ -41,8 +46,32 @@ pub struct Grpc {
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Rest {
-    /// Loopback only; port 0 takes a free one.
+    /// Loopback only as long as there is no token; port 0 takes a free one.
     pub listen: SocketAddr,
+    /// Names beside `localhost` that are answered to on a loopback address.
+    pub hosts: Vec<String>,
+}
+
+/// The certificates of both ports; no TLS where there is none.
+#[derive(Clone, Debug, PartialEq, Default, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Tls {
+    /// PEM: the service's certificate, and those between it and its root.
+    pub certificate_file: Option<PathBuf>,
+    /// PEM: its private key.
+    pub key_file: Option<PathBuf>,
+    /// PEM: only clients with a certificate of one of these are let in.
+    pub client_ca_file: Option<PathBuf>,
+}
+
+/// Tokens that are not in the database.
+#[derive(Clone, Debug, PartialEq, Default, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Access {
+    /// An admin's token for all networks; meant for the environment.
+    pub bootstrap_token: Option<Secret>,
+    /// A file with such a token and nothing else.
+    pub bootstrap_token_file: Option<PathBuf>,
 }
 
 /// The database.
@@ -142,7 +171,7 @@ impl Default for Grpc {
 
 impl Default for Rest {
     fn default() -> Self {
-        Self { listen: loopback(7480) }
+        Self { listen: loopback(7480), hosts: Vec::new() }
     }
 }
 

@@ -12,8 +12,10 @@ use super::RestState;
 use super::accept::prefers_text;
 use super::immutable::{Form, is_known, not_modified, whole};
 use super::lists::id;
+use super::plans::known;
 use super::problem::Problem;
 use super::query::{Named, Params};
+use crate::access::Caller;
 use crate::domain::PlanId;
 use crate::store::Explained;
 
@@ -48,6 +50,7 @@ impl Named for Shown {
 ))]
 pub(super) async fn explanation(
     State(state): State<RestState>,
+    caller: Caller,
     name: Result<Path<String>, PathRejection>,
     headers: HeaderMap,
     uri: Uri,
@@ -56,6 +59,7 @@ pub(super) async fn explanation(
     let shown = params.named::<Shown>("format");
     params.finish()?;
     let plan_id: PlanId = id("plan", &name.map(|Path(name)| name).unwrap_or_default())?;
+    known(&state, &caller, plan_id).await?;
     let stored = state.reads.explanation(plan_id).await?;
     let document = match stored.ok_or_else(|| Problem::not_found("plan", plan_id))? {
         Explained::Document(document) => document,

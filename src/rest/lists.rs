@@ -15,6 +15,7 @@ use super::view::{
     Departure, DeparturePage, DepartureState, Network, NetworkPage, Request, RequestPage,
     RequestState,
 };
+use crate::access::Caller;
 use crate::domain::{DepartureId, NetworkId, RequestId};
 use crate::store::{DepartureFilter, RequestFilter};
 
@@ -42,12 +43,13 @@ fn in_path<T: FromStr<Err: Display>>(what: &str, path: Id, uri: &Uri) -> Result<
 ))]
 pub(super) async fn networks(
     State(state): State<RestState>,
+    caller: Caller,
     uri: Uri,
 ) -> Result<Json<NetworkPage>, Problem> {
     let mut params = Params::of(&uri)?;
     let page = params.page::<NetworkId>();
     params.finish()?;
-    Ok(Json(state.reads.networks(&page).await?.into()))
+    Ok(Json(state.reads.networks(caller.networks(), &page).await?.into()))
 }
 
 /// The present version of a network, with its spec.
@@ -60,11 +62,12 @@ pub(super) async fn networks(
 ))]
 pub(super) async fn network(
     State(state): State<RestState>,
+    caller: Caller,
     path: Id,
     uri: Uri,
 ) -> Result<Json<Network>, Problem> {
     let id: NetworkId = in_path("network", path, &uri)?;
-    let network = state.reads.network(&id).await?;
+    let network = state.reads.network(&id).await?.filter(|_| caller.sees(&id));
     Ok(Json(network.ok_or_else(|| Problem::not_found("network", id))?.into()))
 }
 
@@ -82,10 +85,12 @@ pub(super) async fn network(
 ))]
 pub(super) async fn requests(
     State(state): State<RestState>,
+    caller: Caller,
     uri: Uri,
 ) -> Result<Json<RequestPage>, Problem> {
     let mut params = Params::of(&uri)?;
     let filter = RequestFilter {
+        within: caller.networks().clone(),
         network_id: params.one("network"),
         states: params.several("state"),
         sensor_id: params.one("sensor"),
@@ -105,11 +110,13 @@ pub(super) async fn requests(
 ))]
 pub(super) async fn request(
     State(state): State<RestState>,
+    caller: Caller,
     path: Id,
     uri: Uri,
 ) -> Result<Json<Request>, Problem> {
     let id: RequestId = in_path("request", path, &uri)?;
     let request = state.reads.request(id).await?;
+    let request = request.filter(|request| caller.sees(&request.asked.network_id));
     Ok(Json(request.ok_or_else(|| Problem::not_found("request", id))?.into()))
 }
 
@@ -127,10 +134,12 @@ pub(super) async fn request(
 ))]
 pub(super) async fn departures(
     State(state): State<RestState>,
+    caller: Caller,
     uri: Uri,
 ) -> Result<Json<DeparturePage>, Problem> {
     let mut params = Params::of(&uri)?;
     let filter = DepartureFilter {
+        within: caller.networks().clone(),
         network_id: params.one("network"),
         charger_id: params.one("charger"),
         states: params.several("state"),
@@ -150,10 +159,12 @@ pub(super) async fn departures(
 ))]
 pub(super) async fn departure(
     State(state): State<RestState>,
+    caller: Caller,
     path: Id,
     uri: Uri,
 ) -> Result<Json<Departure>, Problem> {
     let id: DepartureId = in_path("departure", path, &uri)?;
     let departure = state.reads.departure(id).await?;
+    let departure = departure.filter(|departure| caller.sees(&departure.announced.network_id));
     Ok(Json(departure.ok_or_else(|| Problem::not_found("departure", id))?.into()))
 }

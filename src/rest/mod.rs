@@ -2,8 +2,10 @@
 //! problem document (RFC 9457), logged once if it is the service's own.
 
 mod accept;
+mod described;
 mod dress;
 mod explanations;
+mod guard;
 mod health;
 mod immutable;
 mod lists;
@@ -13,11 +15,13 @@ mod plans;
 mod problem;
 mod query;
 mod router;
+mod routes;
 mod state;
 mod view;
 
 #[cfg(test)]
 mod tests;
 
+pub use guard::Guard;
 pub use router::router;
 pub use state::RestState;

@@ -8,6 +8,7 @@ use axum::http::{HeaderValue, Uri};
 use axum::response::Response;
 use utoipa::OpenApi;
 
+use super::described::Guarded;
 use super::problem::Problem;
 use super::query::Params;
 use super::view::PlanStatus;
@@ -36,7 +37,8 @@ use super::{explanations, health, lists, metrics, plans};
         health::healthz,
         health::readyz,
     ),
-    components(schemas(PlanStatus))
+    components(schemas(PlanStatus)),
+    modifiers(&Guarded)
 )]
 struct Api;
 
@@ -51,6 +53,11 @@ pub(super) async fn document(uri: Uri) -> Result<Response, Problem> {
     let json = HeaderValue::from_static("application/json");
     response.headers_mut().insert(CONTENT_TYPE, json);
     Ok(response)
+}
+
+#[cfg(test)]
+pub(super) fn api() -> utoipa::openapi::OpenApi {
+    Api::openapi()
 }
 
 #[cfg(test)]

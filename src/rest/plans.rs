@@ -13,6 +13,7 @@ use super::lists::id;
 use super::problem::Problem;
 use super::query::Params;
 use super::view::{PlanEnvelope, PlanPage, PlanStatus};
+use crate::access::Caller;
 use crate::domain::PlanId;
 use crate::planner::{self, Unreadable};
 use crate::store::PlanFilter;
@@ -35,10 +36,12 @@ use crate::svg;
 ))]
 pub(super) async fn plans(
     State(state): State<RestState>,
+    caller: Caller,
     uri: Uri,
 ) -> Result<Json<PlanPage>, Problem> {
     let mut params = Params::of(&uri)?;
     let filter = PlanFilter {
+        within: caller.networks().clone(),
         network_id: params.one("network"),
         charger_id: params.one("charger"),
         status: params.named::<PlanStatus>("status").map(|status| status.name().to_owned()),
@@ -66,6 +69,7 @@ pub(super) async fn plans(
 ))]
 pub(super) async fn plan(
     State(state): State<RestState>,
+    caller: Caller,
     name: Result<Path<String>, PathRejection>,
     headers: HeaderMap,
     uri: Uri,
@@ -77,6 +81,7 @@ pub(super) async fn plan(
         None => (name.as_str(), Form::Plan),
     };
     let plan_id: PlanId = id("plan", text)?;
+    known(&state, &caller, plan_id).await?;
     let envelope = state.reads.plan_envelope(plan_id).await?;
     let envelope = envelope.ok_or_else(|| Problem::not_found("plan", plan_id))?;
     let tag = form.tag(&plan_id.to_string());
@@ -102,18 +107,30 @@ pub(super) async fn plan(
 ))]
 pub(super) async fn scenario(
     State(state): State<RestState>,
+    caller: Caller,
     name: Result<Path<String>, PathRejection>,
     headers: HeaderMap,
     uri: Uri,
 ) -> Result<Response, Problem> {
     Params::none(&uri)?;
     let plan_id: PlanId = id("plan", &name.map(|Path(name)| name).unwrap_or_default())?;
+    known(&state, &caller, plan_id).await?;
     let text = scenario_text(&state, plan_id).await?;
     let tag = Form::Scenario.tag(&plan_id.to_string());
     Ok(match is_known(&headers, &tag) {
         true => not_modified(Form::Scenario, &tag),
         false => whole(Form::Scenario, &tag, text),
     })
+}
+
+/// Refuses a plan of a network that the caller does not know of like one that is not there.
+pub(super) async fn known(state: &RestState, caller: &Caller, id: PlanId) -> Result<(), Problem> {
+    if !caller.is_restricted() {
+        return Ok(());
+    }
+    let network = state.reads.plan_network(id).await?;
+    let seen = network.is_some_and(|network| caller.sees(&network));
+    if seen { Ok(()) } else { Err(Problem::not_found("plan", id)) }
 }
 
 async fn scenario_text(state: &RestState, id: PlanId) -> Result<Vec<u8>, Problem> {

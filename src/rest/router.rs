@@ -1,14 +1,22 @@
 //! The routes.
 
 use axum::Router;
+use axum::middleware::from_fn_with_state;
 use axum::routing::get;
 
 use super::dress::dress;
+use super::guard::{Guard, guard};
+use super::routes::Routes;
 use super::{RestState, explanations, health, lists, metrics, openapi, plans};
 
 /// Every route of the REST edge, with its layers.
-pub fn router(state: RestState) -> Router {
-    let routes = Router::new()
+pub fn router(state: RestState, behind: Guard) -> Router {
+    let (routes, _) = routes().finish();
+    dress(routes.with_state(state).layer(from_fn_with_state(behind, guard)))
+}
+
+fn routes() -> Routes<RestState> {
+    Routes::new()
         .route("/v1/networks", get(lists::networks))
         .route("/v1/networks/{id}", get(lists::network))
         .route("/v1/requests", get(lists::requests))
@@ -24,6 +32,22 @@ pub fn router(state: RestState) -> Router {
         .route("/metrics", get(metrics::metrics))
         .route("/healthz", get(health::healthz))
         .route("/readyz", get(health::readyz))
-        .with_state(state);
-    dress(routes)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::routes;
+    use crate::access::table;
+
+    #[test]
+    fn every_route_has_an_entry_in_the_access_table_and_every_entry_a_route() {
+        let (_, paths) = routes().finish();
+        for path in &paths {
+            assert!(table::rest(path).is_some(), "{path} has no entry: nobody can call it");
+        }
+        for (entry, _) in table::REST {
+            assert!(paths.contains(entry), "{entry} is no route");
+        }
+        assert_eq!(paths.len(), table::REST.len());
+    }
 }

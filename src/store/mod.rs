@@ -13,6 +13,7 @@ mod open;
 mod page;
 mod read;
 mod rows;
+mod tokens;
 mod words;
 mod writer;
 
@@ -27,4 +28,5 @@ pub use explanations::Explained;
 pub use open::Store;
 pub use page::{DepartureFilter, Listed, Page, PlanFilter, RequestFilter};
 pub use read::{PlanSummary, Reads, Waiting};
+pub use tokens::{Keys, TokenCount, TokenFile};
 pub use writer::Writer;

@@ -18,6 +18,7 @@ mod time;
 #[path = "../common/onnx.rs"]
 mod onnx;
 
+mod access;
 mod bad_input;
 mod batch;
 mod crash;
