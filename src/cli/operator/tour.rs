@@ -51,8 +51,7 @@ pub async fn run(Command::Get(args): Command) -> Result<(), Failure> {
         departure_id: args.departure.map(|id| id.to_string()).unwrap_or_default(),
     };
     let channel = args.common.remote.connect().await?;
-    let mut client =
-        TourServiceClient::new(channel).max_decoding_message_size(MESSAGE_BYTES);
+    let mut client = TourServiceClient::new(channel).max_decoding_message_size(MESSAGE_BYTES);
     let tour = client.get_next(waiting(message, args.wait.0.min(LONGEST))).await;
     let tour = wire::tour(tour.map_err(refused)?.into_inner()).map_err(unreadable)?;
     show::item(args.common.json, &tour, show::tour)
