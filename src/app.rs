@@ -277,6 +277,11 @@ async fn guarded(
             tracing::warn!(key, %address, "without TLS tokens can be read on their way; see [tls]");
         }
     }
+    if gate.is_closed() {
+        tracing::info!("every call needs a token, but for health checks");
+    } else {
+        tracing::info!("there is no token: whoever reaches the service may do everything");
+    }
     Ok(gate)
 }
 

@@ -54,7 +54,7 @@ mod tests {
         let without_colon = STANDARD.encode(TOKEN);
         let bad = ["", "Bearer", "Bearer ", "Bearer short", "Digest x", "Basic !", TOKEN];
         for value in bad.map(str::to_owned).into_iter().chain([format!("Basic {without_colon}")]) {
-            assert_eq!(read(&[value.clone()]), None, "{value}");
+            assert_eq!(read(std::slice::from_ref(&value)), None, "{value}");
         }
         let twice = format!("Bearer {TOKEN}");
         assert_eq!(read(&[twice.clone(), twice]), None);

@@ -10,6 +10,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use axum::http::HeaderMap;
+use axum::http::header::AUTHORIZATION;
 use tokio::sync::watch;
 use tokio_util::sync::CancellationToken;
 
@@ -60,7 +61,8 @@ impl Gate {
             return Ok(Some(Caller::new(Arc::new(Grant::ADMIN), None)));
         }
         let refused = |why: &str| Refusal::Unauthenticated(why.to_owned());
-        let hash = bearer::token(headers).ok_or_else(|| refused(NONE))?.hash();
+        let none = if headers.contains_key(AUTHORIZATION) { UNKNOWN } else { NONE };
+        let hash = bearer::token(headers).ok_or_else(|| refused(none))?.hash();
         let grant = self.grant(hash).await?.ok_or_else(|| refused(UNKNOWN))?;
         allowed(who, &grant)?;
         Ok(Some(Caller::new(grant, Some(hash))))

@@ -122,7 +122,13 @@ async fn create(args: Create) -> Result<(), Failure> {
     let now = SystemClock.now();
     let id = TokenId(Ids::default().next(now));
     let token = Token { id, name: args.name, grant, created_at: now, revoked_at: None };
+    let is_new = !path.exists();
     let mut file = open(&path, true).await?;
+    let place = match (is_new, file.is_served()) {
+        (true, _) => "a new database",
+        (false, true) => "on which a service runs",
+        (false, false) => "on which no service runs now",
+    };
     let added = file.add(&token, secret.hash()).await.map_err(|error| failed(&path, error))?;
     file.close().await.map_err(|error| failed(&path, error))?;
     if !added {
@@ -134,7 +140,12 @@ async fn create(args: Create) -> Result<(), Failure> {
         say(shown);
     } else {
         say(secret.reveal());
-        eprintln!("voltour: {}; it is shown this once", line(&token));
+        // Another database than the service's would be a riddle later.
+        eprintln!("voltour: {}", line(&token));
+        eprintln!(
+            "voltour: kept as its hash in {}, {place}; it is shown this once",
+            path.display()
+        );
     }
     Ok(())
 }

@@ -81,7 +81,7 @@ impl Reads {
 pub struct TokenFile {
     conn: SqliteConnection,
     /// Held where no service has the database open, so that none starts in the middle.
-    _lock: Option<Lock>,
+    lock: Option<Lock>,
 }
 
 impl TokenFile {
@@ -112,12 +112,12 @@ impl TokenFile {
                 return Err(StoreError::Older(path.to_owned()));
             }
         }
-        Ok(Self { conn, _lock: lock })
+        Ok(Self { conn, lock })
     }
 
     /// Whether a service has the database open.
     pub fn is_served(&self) -> bool {
-        self._lock.is_none()
+        self.lock.is_none()
     }
 
     /// Stores a new token; false where another one has its name.
@@ -245,7 +245,7 @@ mod tests {
         let (truck, hash) = (named("t", Role::Charger, &["n", "m"], Some("c")), TokenHash([7; 32]));
         assert!(file.add(&truck, hash).await.unwrap());
         assert!(!file.add(&truck, TokenHash([8; 32])).await.unwrap(), "the name is taken");
-        assert_eq!(file.list(false).await.unwrap(), [truck.clone()]);
+        assert_eq!(file.list(false).await.unwrap(), std::slice::from_ref(&truck));
         assert_eq!(reads.key(hash).await.unwrap(), Some(truck.grant.clone()));
         assert_eq!(*reads.keys().await.unwrap().grants[&hash], truck.grant);
         assert_eq!(reads.key(TokenHash([8; 32])).await.unwrap(), None);
