@@ -7,6 +7,7 @@
 
 use std::future::Future;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use axum::http::HeaderMap;
@@ -31,6 +32,8 @@ const UNKNOWN: &str = "the token is not known here, or was revoked";
 pub struct Gate {
     reads: Reads,
     keys: watch::Sender<Arc<Keys>>,
+    /// There was a token. A database that somebody else has emptied opens nothing.
+    closed: Arc<AtomicBool>,
     bootstrap: Option<TokenHash>,
 }
 
@@ -41,12 +44,14 @@ impl Gate {
     /// The database cannot be read.
     pub async fn open(reads: Reads, bootstrap: Option<&Secret>) -> Result<Self, StoreError> {
         let keys = watch::Sender::new(Arc::new(reads.keys().await?));
-        Ok(Self { reads, keys, bootstrap: bootstrap.map(Secret::hash) })
+        let closed = AtomicBool::new(bootstrap.is_some() || keys.borrow().count.made > 0);
+        let bootstrap = bootstrap.map(Secret::hash);
+        Ok(Self { reads, keys, closed: Arc::new(closed), bootstrap })
     }
 
     /// Whether calls need a token.
     pub fn is_closed(&self) -> bool {
-        self.bootstrap.is_some() || self.keys.borrow().count.made > 0
+        self.closed.load(Ordering::Relaxed)
     }
 
     /// The caller of a call; none where anybody may make it.
@@ -107,6 +112,9 @@ impl Gate {
         let count = self.reads.token_count().await?;
         if count != self.keys.borrow().count {
             let keys = self.reads.keys().await?;
+            if keys.count.made > 0 {
+                self.closed.store(true, Ordering::Relaxed);
+            }
             tracing::info!(tokens = keys.grants.len(), "the tokens have changed");
             self.keys.send_replace(Arc::new(keys));
         }
