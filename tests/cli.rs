@@ -308,6 +308,10 @@ fn options_of_comparison_algorithms_are_held_to_their_rules() {
         ("--app-epsilon", "1", "below 1"),
         ("--app-level", "13", "1..=12"),
         ("--memory-limit", "0", "1.."),
+        ("--walks", "0", "1.."),
+        ("--acs-ants", "0", "1.."),
+        ("--acs-q0", "1.1", "[0, 1]"),
+        ("--acs-beta", "-1", "0 or more"),
     ] {
         let output = voltour(&["solve", "-", "--solver", "dp", option, value], SMALL);
         let said = text(&output.stderr);
@@ -316,6 +320,20 @@ fn options_of_comparison_algorithms_are_held_to_their_rules() {
     }
     let line = refused(&voltour(&["solve", "-", "--solver", "mst"], SMALL));
     assert!(line.contains("\"mst\" is not for this problem: it needs"), "{line}");
+}
+
+#[test]
+fn an_ant_colony_is_as_large_as_its_options_say() {
+    let scenario = text(&voltour(&["generate", "k_coverage", "--seed", "3"], "").stdout).to_owned();
+    let ants = |options: &[&str]| {
+        let given = [&["solve", "-", "--solver", "acs"], options].concat();
+        let output = voltour(&given, &scenario);
+        assert_eq!(code(&output), 0, "{}", text(&output.stderr));
+        json(&output.stdout)
+    };
+    let few = ants(&["--acs-runs", "1", "--acs-iterations", "1", "--acs-ants", "2"]);
+    let many = ants(&["--acs-runs", "2", "--acs-iterations", "20"]);
+    assert!(few["objective"].as_f64() > many["objective"].as_f64(), "{few} {many}");
 }
 
 #[test]

@@ -5,7 +5,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-use super::{check, explain, generate, operator, policies, serve, solve, token};
+use super::{bench, check, explain, generate, operator, policies, serve, solve, token};
 
 /// Plans the tours of mobile chargers in wireless rechargeable sensor networks.
 #[derive(Debug, Parser)]
@@ -46,6 +46,9 @@ pub enum Command {
     Explain(explain::Args),
     /// Draw a random scenario
     Generate(generate::Args),
+    /// Compare the algorithms: the paper's tables, public instances
+    #[command(subcommand)]
+    Bench(bench::Command),
     /// Show the trained policies
     #[command(subcommand)]
     Policy(policies::Command),
@@ -66,6 +69,7 @@ pub fn run(cli: Cli) -> ExitCode {
         Command::Check(args) => check::run(args),
         Command::Explain(args) => explain::run(args),
         Command::Generate(args) => generate::run(args),
+        Command::Bench(command) => bench::run(command),
         Command::Policy(command) => policies::run(command),
         Command::Serve(args) => serve::run(args),
         Command::Token(command) => token::run(command),

@@ -1,6 +1,7 @@
 //! The command tree: each command is a file with its `Args` and its `run`. The only room that prints.
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "a command line prints")]
 
+pub mod bench;
 pub mod check;
 mod command;
 mod documents;

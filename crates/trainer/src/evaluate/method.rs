@@ -182,7 +182,9 @@ impl Method {
                 if control {
                     effort.temperature = CONTROL_TEMPERATURE;
                 }
-                effort.orders = orders.unwrap_or(effort.orders);
+                if let Some(orders) = orders {
+                    effort = Effort { orders, orders_grow: false, ..effort };
+                }
                 let rule = Rule(problem);
                 let q: &dyn QFunction = if control { &rule } else { policy };
                 let guide = Guide::new(instance, definition(problem), q);

@@ -20,29 +20,41 @@ pub struct Effort {
     pub temperature: f64,
     /// Actions of the look-ahead; 0 for none.
     pub look_ahead: usize,
-    /// Random orders in which the stops of each complete tour are put in again.
+    /// Orders in which the stops of each complete tour are put in again.
     pub orders: usize,
+    /// Whether a tour of n stops has n^2 orders where that is more; beyond 32 stops they become fewer again.
+    pub orders_grow: bool,
 }
 
 impl Effort {
     /// Nothing but one greedy roll-out.
-    pub const GREEDY: Self =
-        Self { greedy: true, beam: 0, samples: 0, temperature: 0.0, look_ahead: 0, orders: 0 };
+    pub const GREEDY: Self = Self {
+        greedy: true,
+        beam: 0,
+        samples: 0,
+        temperature: 0.0,
+        look_ahead: 0,
+        orders: 0,
+        orders_grow: false,
+    };
 
     /// What `auto` begins with: eight roll-outs.
-    pub const SHARE: Self =
-        Self { greedy: true, beam: 7, samples: 0, temperature: 0.1, look_ahead: 0, orders: 16 };
+    pub const SHARE: Self = Self { beam: 7, temperature: 0.1, orders: 16, ..Self::GREEDY };
 
     /// What the solver `dqn` does: at most 32 complete roll-outs. Where demands have to be met by their
     /// deadlines, the order is most of what is left to win, and another one costs little.
     pub const fn whole(problem: Problem) -> Self {
-        let orders = match problem {
-            Problem::KCoverage => 96,
-            Problem::Reward | Problem::Mobile => 16,
+        let (orders, orders_grow) = match problem {
+            Problem::KCoverage => (96, true),
+            Problem::Reward | Problem::Mobile => (16, false),
         };
-        Self { beam: 15, samples: 16, orders, ..Self::SHARE }
+        Self { beam: 15, samples: 16, orders, orders_grow, ..Self::SHARE }
     }
 }
+
+/// Stops that are put in again, over all orders of a tour, if their number grows with it: those of 32 stops in 32^2
+/// orders.
+const INSERTIONS: usize = 32 * 32 * 32;
 
 /// Sampled roll-outs that go side by side.
 const SIDE_BY_SIDE: usize = 16;
@@ -98,7 +110,10 @@ impl<'a> Guide<'a> {
             if !budget.spend() {
                 return;
             }
-            reinsert(self.instance, self.definition, end.order(), effort.orders, rng, kept);
+            let stops = end.order();
+            let grown = stops.len().pow(2).min(INSERTIONS / stops.len().max(1));
+            let orders = if effort.orders_grow { effort.orders.max(grown) } else { effort.orders };
+            reinsert(self.instance, self.definition, stops, orders, rng, kept);
         }
     }
 }

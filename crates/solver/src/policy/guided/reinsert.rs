@@ -12,12 +12,16 @@ use super::Kept;
 use crate::framework::{Definition, Insert, State};
 use crate::instance::Instance;
 use crate::solvers::gain;
+use crate::tour::Value;
 
 /// How far the orders by deadline stray from it, as a share of the deadline.
 const STRAY: f64 = 0.5;
 
-/// Puts the stops of a tour in again, in `times` orders: any, and about that of their deadlines, by turns. A
-/// tour is complete as soon as its demands are met; where stops are worth something in themselves, what is won is
+/// How many places a stop strays, at most, in the orders about the best so far.
+const SHIFT: f64 = 6.0;
+
+/// Puts the stops of a tour in again, in `times` orders: any, about that of their deadlines, and half of them
+/// about the one that gave the best tour so far. A tour is complete as soon as its demands are met; where stops are worth something in themselves, what is won is
 /// filled with others, the best gain for effort first. Every tour goes to `kept`.
 pub fn reinsert(
     instance: &Instance<'_>,
@@ -28,12 +32,19 @@ pub fn reinsert(
     kept: &mut Kept,
 ) {
     let mut order = stops.to_vec();
+    let mut best: Option<(Value, Vec<u32>)> = None;
     let empty = State::new(instance);
     let due = stops.iter().any(|&c| instance.candidates[c as usize].due_s.is_finite());
     for turn in 0..times {
-        order.shuffle(rng);
-        if turn % 2 == 1 && due {
-            sort_about_deadlines(instance, &mut order, rng);
+        match (&best, turn % 4) {
+            (Some((_, found)), 2 | 3) => {
+                order.copy_from_slice(found);
+                sort_by(&mut order, |place, _| place as f64 + stray(SHIFT, rng));
+            }
+            (_, 1) if due => sort_by(&mut order, |_, candidate| {
+                instance.candidates[candidate as usize].due_s * (1.0 + stray(STRAY, rng))
+            }),
+            _ => order.shuffle(rng),
         }
         let mut state = empty.clone();
         for &candidate in &order {
@@ -45,18 +56,27 @@ pub fn reinsert(
         }
         fill(definition, &mut state);
         kept.offer(instance, state.tour());
+        let value = Value::of(instance, state.tour());
+        if best.as_ref().is_none_or(|(most, _)| value.beats(most)) {
+            best = Some((value, order.clone()));
+        }
     }
 }
 
-/// Sorts stops by their deadlines, each as if it were up to a share earlier or later.
-fn sort_about_deadlines(instance: &Instance<'_>, order: &mut [u32], rng: &mut Pcg64Mcg) {
-    let mut keyed: Vec<(f64, u32)> = Vec::with_capacity(order.len());
-    for &candidate in order.iter() {
-        let stray = 1.0 + STRAY * (2.0 * rng.random::<f64>() - 1.0);
-        keyed.push((instance.candidates[candidate as usize].due_s * stray, candidate));
-    }
+/// Sorts stops by a key of each, which may depend on its place.
+fn sort_by(order: &mut [u32], mut key: impl FnMut(usize, u32) -> f64) {
+    let mut keyed: Vec<(f64, u32)> = order
+        .iter()
+        .enumerate()
+        .map(|(place, &candidate)| (key(place, candidate), candidate))
+        .collect();
     keyed.sort_by(|a, b| a.0.total_cmp(&b.0));
     order.iter_mut().zip(keyed).for_each(|(place, (_, candidate))| *place = candidate);
+}
+
+/// A number from -most to most.
+fn stray(most: f64, rng: &mut Pcg64Mcg) -> f64 {
+    most * (2.0 * rng.random::<f64>() - 1.0)
 }
 
 /// Inserts what still helps, the best gain for effort first.
