@@ -5,7 +5,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-use super::{check, explain, generate, operator, policies, serve, solve};
+use super::{check, config, explain, generate, operator, pages, policies, serve, solve};
 
 /// Plans the tours of mobile chargers in wireless rechargeable sensor networks.
 #[derive(Debug, Parser)]
@@ -51,6 +51,13 @@ pub enum Command {
     Policy(policies::Command),
     /// Run the scheduling service, or its demonstration
     Serve(serve::Args),
+    /// Look at the configuration
+    #[command(subcommand)]
+    Config(config::Command),
+    /// Print the completions of a shell
+    Completions(pages::Completions),
+    /// Write the man pages
+    Man(pages::Man),
     /// What an operator does with a running service.
     #[command(flatten)]
     Operator(operator::Command),
@@ -65,6 +72,9 @@ pub fn run(cli: Cli) -> ExitCode {
         Command::Generate(args) => generate::run(args),
         Command::Policy(command) => policies::run(command),
         Command::Serve(args) => serve::run(args),
+        Command::Config(command) => config::run(command),
+        Command::Completions(args) => pages::completions(args),
+        Command::Man(args) => pages::man(args),
         Command::Operator(command) => operator::run(command),
     };
     done.unwrap_or_else(|failure| {

@@ -3,6 +3,7 @@
 
 pub mod check;
 mod command;
+pub mod config;
 mod documents;
 pub mod explain;
 pub mod failure;
@@ -10,6 +11,7 @@ pub mod generate;
 mod input;
 pub mod operator;
 mod out;
+pub mod pages;
 mod paper;
 pub mod policies;
 mod pretty;

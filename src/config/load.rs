@@ -9,7 +9,7 @@ use figment::Figment;
 use figment::providers::{Env, Format as _, Toml};
 use voltour_solver::solvers::SolverName;
 
-use super::{Config, Span};
+use super::{Config, Setting, Span};
 use crate::explainer;
 use crate::grpc;
 use crate::scheduler;
@@ -24,6 +24,14 @@ pub struct ConfigError(pub Vec<String>);
 /// # Errors
 /// The file cannot be read, a key is unknown, or a value breaks a rule.
 pub fn load(file: Option<&Path>) -> Result<Config, ConfigError> {
+    load_with(file, &[])
+}
+
+/// As [`load`], then the settings of the command line, the last of a key before the others.
+///
+/// # Errors
+/// The file cannot be read, a key is unknown, or a value breaks a rule.
+pub fn load_with(file: Option<&Path>, settings: &[Setting]) -> Result<Config, ConfigError> {
     let mut figment = Figment::new();
     if let Some(file) = file {
         figment = figment.merge(Toml::file_exact(file));
@@ -31,8 +39,11 @@ pub fn load(file: Option<&Path>) -> Result<Config, ConfigError> {
     // Only keys of sections: VOLTOUR_SERVER, without a section, is the operator's commands'.
     let environment =
         Env::prefixed("VOLTOUR_").filter(|key| key.as_str().contains("__")).split("__");
+    figment = figment.merge(environment);
+    for setting in settings {
+        figment = figment.merge(setting);
+    }
     let config: Config = figment
-        .merge(environment)
         .extract()
         .map_err(|errors| ConfigError(errors.into_iter().map(|error| line(&error)).collect()))?;
     config.check()?;

@@ -10,7 +10,7 @@ use voltour_solver::explain::Explanation;
 
 use super::RestState;
 use super::accept::prefers_text;
-use super::immutable::{Form, is_known, not_modified, whole};
+use super::immutable::{Form, known, not_modified, whole};
 use super::lists::id;
 use super::problem::Problem;
 use super::query::{Named, Params};
@@ -68,8 +68,8 @@ pub(super) async fn explanation(
         _ => Form::Explanation,
     };
     let tag = form.tag(&plan_id.to_string());
-    if is_known(&headers, &tag) {
-        return Ok(not_modified(form, &tag));
+    if let Some(tag) = known(&headers, &tag) {
+        return Ok(not_modified(form, tag));
     }
     Ok(match form {
         Form::ExplanationText => whole(form, &tag, text(plan_id, &document)?),

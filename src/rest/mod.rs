@@ -2,13 +2,16 @@
 //! problem document (RFC 9457), logged once if it is the service's own.
 
 mod accept;
+mod docs;
 mod dress;
 mod explanations;
+mod export;
 mod health;
 mod immutable;
 mod lists;
 mod metrics;
 mod openapi;
+mod plan_forms;
 mod plans;
 mod problem;
 mod query;

@@ -20,6 +20,7 @@ mod onnx;
 
 mod bad_input;
 mod batch;
+mod config;
 mod crash;
 mod downtime;
 mod explanations;

@@ -1,0 +1,48 @@
+//! `voltour config`: looks at the configuration as `voltour serve` would read it, and changes nothing.
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use super::{Failure, documents};
+use crate::config::{self, Config, Setting};
+
+/// What to do with the configuration.
+#[derive(Debug, clap::Subcommand)]
+pub enum Command {
+    /// Check the file, the environment and the flags; says nothing where all is good
+    Check(Source),
+    /// Print what is in force, as TOML: the file, the environment over it, the flags over both; secrets are masked
+    Print(Source),
+}
+
+/// Where the configuration comes from, beside the environment.
+#[derive(Debug, clap::Args)]
+pub struct Source {
+    /// TOML file with the configuration; every key has a default
+    #[arg(long, value_name = "FILE")]
+    pub config: Option<PathBuf>,
+    /// Set a key, over the file and the environment; may be repeated
+    #[arg(long, value_name = "SECTION.KEY=VALUE")]
+    pub set: Vec<Setting>,
+}
+
+impl Source {
+    fn load(&self) -> Result<Config, Failure> {
+        config::load_with(self.config.as_deref(), &self.set)
+            .map_err(|errors| Failure { code: 2, lines: errors.0 })
+    }
+}
+
+/// Runs the command: 0 where the configuration is good, 2 with a line a fault where it is not.
+pub fn run(command: Command) -> Result<ExitCode, Failure> {
+    match command {
+        Command::Check(source) => {
+            source.load()?;
+        }
+        Command::Print(source) => {
+            let text = config::print(&source.load()?);
+            documents::print(&text.map_err(|error| Failure::input(error.to_string()))?)?;
+        }
+    }
+    Ok(ExitCode::SUCCESS)
+}
