@@ -33,7 +33,7 @@ impl Named for Shown {
 /// what would make the tour better. It is made after the plan and stored with it.
 #[utoipa::path(get, path = "/v1/plans/{id}/explanation", tag = "plans", params(
     ("id" = uuid::Uuid, Path, description = "A plan's id"),
-    ("format" = Option<String>, Query,
+    ("format" = Option<String>, Query, pattern = "^(json|text)$",
      description = "`json` or `text`; as `Accept` says where it is left out, else JSON"),
     ("If-None-Match" = Option<String>, Header, description = "Tags that the caller has"),
 ), responses(

@@ -7,7 +7,7 @@ use axum::http::header::{CONTENT_DISPOSITION, CONTENT_TYPE};
 use axum::http::{HeaderValue, Uri};
 use axum::response::Response;
 use csv::WriterBuilder;
-use futures_util::stream::{self, Stream};
+use futures_util::stream::{self, Stream, StreamExt};
 
 use super::RestState;
 use super::plans::filter;
@@ -38,8 +38,10 @@ const COLUMNS: [&str; 16] = [
     "created_at",
 ];
 
-/// The history of plans as CSV, newest first: a header, then a line a plan with the fields of `/v1/plans`; a field
-/// that is null there is empty. The answer ends early, without its proper end, where the service stops meanwhile.
+/// The history of plans as a table (CSV), newest first
+///
+/// A header, then a line a plan with the fields of `/v1/plans`; a field that is null there is empty. The answer ends
+/// early, without its proper end, where the service stops meanwhile.
 #[utoipa::path(get, path = "/v1/plans.csv", operation_id = "plans_table", tag = "plans", params(
     ("network" = Option<String>, Query, pattern = "^[A-Za-z0-9._:-]{1,64}$",
      description = "Of this network"),
@@ -91,7 +93,7 @@ fn table(
     filter: PlanFilter,
     first: Listed<store::PlanSummary>,
 ) -> impl Stream<Item = Result<Vec<u8>, Cut>> {
-    stream::unfold(Next::Header(first), move |next| {
+    let pieces = stream::unfold(Next::Header(first), move |next| {
         let (state, filter) = (state.clone(), filter.clone());
         async move {
             let piece = match next {
@@ -110,7 +112,9 @@ fn table(
                 }
             })
         }
-    })
+    });
+    // The layer that compresses asks once more after the end.
+    pieces.fuse()
 }
 
 async fn rest(

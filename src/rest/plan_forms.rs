@@ -88,12 +88,14 @@ pub(super) async fn picture(asked: Asked) -> Result<Response, Problem> {
     Ok(whole(Form::Svg, &tag, picture.await?))
 }
 
-/// The map of a plan: GeoJSON (RFC 7946) with the field, the sensors, the tour and its ends, for a tool that shows
-/// or keeps maps. Positions of a network are metres in a plane of its own. With `origin` they become longitude and
-/// latitude on WGS 84, x to the east and y to the north of that point (azimuthal equidistant: `+proj=aeqd +lon_0=LON
-/// +lat_0=LAT`), as RFC 7946 wants them. Without it they stay metres of the plane, which RFC 7946 leaves to those who
-/// have agreed on it: for tools with a plane of their own, such as a simple or local reference system. A line across
-/// the 180th meridian is not cut there. Times are seconds after the plan's `start`.
+/// The map of a plan, as GeoJSON (RFC 7946)
+///
+/// The field, the sensors, the tour and its ends, for a tool that shows or keeps maps. Positions of a network are
+/// metres in a plane of its own. With `origin` they become longitude and latitude on WGS 84, x to the east and y to the
+/// north of that point (azimuthal equidistant: `+proj=aeqd +lon_0=LON +lat_0=LAT`), as RFC 7946 wants them. Without it
+/// they stay metres of the plane, which RFC 7946 leaves to those who have agreed on it: for tools with a plane of their
+/// own, such as a simple or local reference system. A line across the 180th meridian is not cut there. Times are seconds
+/// after the plan's `start`.
 #[utoipa::path(get, path = "/v1/plans/{id}.geojson", operation_id = "plan_map", tag = "plans", params(
     ("id" = uuid::Uuid, Path, description = "A plan's id"),
     ("origin" = Option<String>, Query, example = "11.58,48.14",

@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use axum::body::Body;
-use axum::http::header::{CACHE_CONTROL, CONTENT_TYPE, ETAG, IF_NONE_MATCH};
+use axum::http::header::{ACCEPT_ENCODING, CACHE_CONTROL, CONTENT_TYPE, ETAG, IF_NONE_MATCH};
 use axum::http::{HeaderMap, Request, StatusCode};
 use serde_json::{Value, json};
 use tokio_util::sync::CancellationToken;
@@ -221,6 +221,8 @@ async fn the_history_is_a_table_too() {
     assert_eq!(table.lines().count(), 2);
     assert!(table.lines().nth(1).unwrap().starts_with(&id), "{table}");
     assert_eq!(edge.good("/v1/plans.csv?solver=random").await.body, empty.body);
+    let packed = Request::get("/v1/plans.csv").header(ACCEPT_ENCODING, "gzip").body(Body::empty());
+    assert!(edge.ask(packed.unwrap()).await.body.starts_with(&[0x1f, 0x8b]));
 }
 
 #[tokio::test]

@@ -20,7 +20,7 @@ import grpc
 from round import PATIENCE, Client, Server, at, fetch, generate
 
 HERE = pathlib.Path(__file__).resolve().parent
-EXAMPLES = 15  # an operation, of each kind; the run is to stay within a minute
+EXAMPLES = 25  # an operation, of each kind; the run is to stay within a minute
 
 
 def fill(client):
