@@ -5,6 +5,7 @@ use std::process::ExitCode;
 
 use super::{Failure, documents};
 use crate::config::{self, Config, Setting};
+use crate::telemetry;
 
 /// What to do with the configuration.
 #[derive(Debug, clap::Subcommand)]
@@ -28,8 +29,10 @@ pub struct Source {
 
 impl Source {
     fn load(&self) -> Result<Config, Failure> {
-        config::load_with(self.config.as_deref(), &self.set)
-            .map_err(|errors| Failure { code: 2, lines: errors.0 })
+        let config = config::load_with(self.config.as_deref(), &self.set)
+            .map_err(|errors| Failure { code: 2, lines: errors.0 })?;
+        telemetry::filter(&config.log).map_err(|error| Failure::input(error.to_string()))?;
+        Ok(config)
     }
 }
 

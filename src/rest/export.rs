@@ -70,13 +70,11 @@ pub(super) async fn plans(State(state): State<RestState>, uri: Uri) -> Result<Re
 
 /// Why a table broke off: the caller sees only that it did.
 #[derive(Debug, thiserror::Error)]
-enum Cut {
+pub(super) enum Cut {
     #[error("{0}")]
     Store(#[from] store::StoreError),
     #[error("a row of the export: {0}")]
     Row(#[from] csv::Error),
-    #[error("a row of the export: {0}")]
-    Rows(#[from] csv::IntoInnerError<csv::Writer<Vec<u8>>>),
     #[error("the service is stopping")]
     Stopping,
 }
@@ -88,7 +86,8 @@ enum Next {
     End,
 }
 
-fn table(
+/// The pieces of a table, from its first page on.
+pub(super) fn table(
     state: RestState,
     filter: PlanFilter,
     first: Listed<store::PlanSummary>,
@@ -148,7 +147,8 @@ fn piece(
     for plan in listed.items {
         table.serialize(PlanSummary::from(plan))?;
     }
-    Ok((table.into_inner()?, listed.next))
+    let text = table.into_inner().map_err(|error| csv::Error::from(error.into_error()))?;
+    Ok((text, listed.next))
 }
 
 #[cfg(test)]

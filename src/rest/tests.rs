@@ -5,6 +5,7 @@ use std::time::Duration;
 use axum::body::Body;
 use axum::http::header::{ACCEPT_ENCODING, CACHE_CONTROL, CONTENT_TYPE, ETAG, IF_NONE_MATCH};
 use axum::http::{HeaderMap, Request, StatusCode};
+use futures_util::StreamExt;
 use serde_json::{Value, json};
 use tokio_util::sync::CancellationToken;
 use tower::ServiceExt;
@@ -16,7 +17,7 @@ use super::{RestState, router};
 use crate::clock::plus;
 use crate::metrics::Metrics;
 use crate::store::fixture::Bench;
-use crate::store::{NewPlan, StorePlan, pack};
+use crate::store::{Listed, NewPlan, PlanFilter, StorePlan, pack};
 
 /// A service's database and its REST edge.
 struct Edge {
@@ -223,6 +224,24 @@ async fn the_history_is_a_table_too() {
     assert_eq!(edge.good("/v1/plans.csv?solver=random").await.body, empty.body);
     let packed = Request::get("/v1/plans.csv").header(ACCEPT_ENCODING, "gzip").body(Body::empty());
     assert!(edge.ask(packed.unwrap()).await.body.starts_with(&[0x1f, 0x8b]));
+}
+
+#[tokio::test]
+async fn a_long_table_goes_on_page_by_page_and_breaks_off_with_the_service() {
+    let edge = Edge::new().await;
+    let id = edge.plan().await;
+    let table = || {
+        let first = Listed { items: Vec::new(), next: Some("ffffffff".to_owned()) };
+        super::export::table(edge.state.clone(), PlanFilter::default(), first)
+    };
+    let pieces: Vec<_> = table().collect().await;
+    let texts: Vec<_> =
+        pieces.into_iter().map(|piece| String::from_utf8(piece.unwrap()).unwrap()).collect();
+    assert!(texts[0].starts_with("id,departure_id,") && texts[1].starts_with(&id), "{texts:?}");
+    assert_eq!(texts.len(), 2);
+    edge.shutdown.cancel();
+    let pieces: Vec<_> = table().collect().await;
+    assert_eq!(pieces.iter().map(Result::is_ok).collect::<Vec<_>>(), [true, false]);
 }
 
 #[tokio::test]

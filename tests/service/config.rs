@@ -66,6 +66,7 @@ fn every_fault_is_named_with_its_key() {
         ("", &["--set", "planning.budget=soon"], &[], "planning.budget"),
         ("", &["--set", "planning.bugdet=1s"], &[], "bugdet"),
         ("", &["--set", "budget=1s"], &[], "SECTION.KEY=VALUE"),
+        ("", &["--set", "log.filter=voltour=loud"], &[], "log.filter"),
         ("", &[], &[("VOLTOUR_LOG__FORMAT", "xml")], "log.format"),
         ("", &[], &[("VOLTOUR_LOG__FROMAT", "text")], "fromat"),
     ] {
