@@ -9,6 +9,7 @@ pub mod config;
 pub mod demo;
 pub mod domain;
 pub mod explainer;
+pub mod geojson;
 pub mod grpc;
 pub mod lifecycle;
 pub mod listen;

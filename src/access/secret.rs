@@ -4,7 +4,7 @@ use std::fmt;
 
 use base64::Engine;
 use base64::engine::general_purpose::URL_SAFE_NO_PAD;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize, Serializer};
 use sha2::{Digest, Sha256};
 
 use crate::domain::TokenHash;
@@ -18,7 +18,9 @@ const LEAST: usize = 32;
 /// No header is longer than that for a token's sake.
 const MOST: usize = 256;
 
-/// A token. It is never printed by accident: its debug form is a mask.
+const MASK: &str = "********";
+
+/// A token. It is never printed by accident: its debug form is a mask, and so is what serde makes of it.
 #[derive(Clone, PartialEq, Eq, Deserialize)]
 #[serde(try_from = "String")]
 pub struct Secret(String);
@@ -71,7 +73,13 @@ impl std::str::FromStr for Secret {
 
 impl fmt::Debug for Secret {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("\"********\"")
+        fmt::Debug::fmt(MASK, f)
+    }
+}
+
+impl Serialize for Secret {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(MASK)
     }
 }
 
@@ -85,7 +93,8 @@ mod tests {
         assert_ne!(one.hash(), other.hash());
         assert_eq!(one.reveal().len(), PREFIX.len() + 43);
         assert_eq!(one.reveal().parse(), Ok(one.clone()));
-        assert!(!format!("{one:?}").contains(&one.reveal()[8..]));
+        assert_eq!(format!("{one:?}"), "\"********\"");
+        assert_eq!(serde_json::to_string(&one).unwrap(), "\"********\"");
     }
 
     #[test]

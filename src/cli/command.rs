@@ -5,7 +5,9 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-use super::{bench, check, explain, generate, operator, policies, serve, solve, token};
+use super::{
+    bench, check, config, explain, generate, operator, pages, policies, serve, solve, token,
+};
 
 /// Plans the tours of mobile chargers in wireless rechargeable sensor networks.
 #[derive(Debug, Parser)]
@@ -57,6 +59,13 @@ pub enum Command {
     /// Make and revoke API tokens, on the service's machine
     #[command(subcommand)]
     Token(token::Command),
+    /// Look at the configuration
+    #[command(subcommand)]
+    Config(config::Command),
+    /// Print the completions of a shell
+    Completions(pages::Completions),
+    /// Write the man pages
+    Man(pages::Man),
     /// What an operator does with a running service.
     #[command(flatten)]
     Operator(operator::Command),
@@ -73,6 +82,9 @@ pub fn run(cli: Cli) -> ExitCode {
         Command::Policy(command) => policies::run(command),
         Command::Serve(args) => serve::run(args),
         Command::Token(command) => token::run(command),
+        Command::Config(command) => config::run(command),
+        Command::Completions(args) => pages::completions(args),
+        Command::Man(args) => pages::man(args),
         Command::Operator(command) => operator::run(command),
     };
     done.unwrap_or_else(|failure| {

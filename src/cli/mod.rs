@@ -4,6 +4,7 @@
 pub mod bench;
 pub mod check;
 mod command;
+pub mod config;
 mod documents;
 pub mod explain;
 pub mod failure;
@@ -11,6 +12,7 @@ pub mod generate;
 mod input;
 pub mod operator;
 mod out;
+pub mod pages;
 mod paper;
 pub mod policies;
 mod pretty;

@@ -11,7 +11,7 @@ use tokio::runtime::Builder;
 use super::{Failure, say};
 use crate::app::{App, AppError};
 use crate::clock::SystemClock;
-use crate::config::{self, Config};
+use crate::config::{self, Config, Setting};
 use crate::lifecycle::Lifecycle;
 use crate::{demo, telemetry};
 
@@ -22,6 +22,9 @@ pub struct Args {
     /// TOML file with the configuration; every key has a default
     #[arg(long, value_name = "FILE")]
     pub config: Option<PathBuf>,
+    /// Set a key of the configuration, over the file and the environment; may be repeated
+    #[arg(long, value_name = "SECTION.KEY=VALUE", conflicts_with = "demo")]
+    pub set: Vec<Setting>,
     /// Play a base station and a charger against the service, in fast motion
     #[arg(long)]
     pub demo: bool,
@@ -74,7 +77,8 @@ Configuration, as TOML (these are the defaults):
   format = \"text\"              # or json
   filter = \"info\"
 
-The environment goes before the file: VOLTOUR_PLANNING__BUDGET=1s, VOLTOUR_LOG__FORMAT=json.
+The environment goes before the file: VOLTOUR_PLANNING__BUDGET=1s, VOLTOUR_LOG__FORMAT=json. The command line goes
+before both: --set planning.budget=1s. `voltour config check` and `config print` say what comes of it.
 
 Who may do what: as long as there is no token, everybody who reaches the service, which is why it listens on
 loopback only. From the first token on (`voltour token create`, or an admin's in VOLTOUR_ACCESS__BOOTSTRAP_TOKEN or
@@ -88,7 +92,7 @@ const LAST: Duration = Duration::from_secs(1);
 
 /// Runs the command.
 pub fn run(args: Args) -> Result<ExitCode, Failure> {
-    let config = config::load(args.config.as_deref())
+    let config = config::load_with(args.config.as_deref(), &args.set)
         .map_err(|errors| Failure { code: 2, lines: errors.0 })?;
     if args.demo {
         // Its lines are the demonstration; of the log only what goes wrong.

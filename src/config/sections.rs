@@ -3,13 +3,13 @@
 use std::net::{Ipv4Addr, SocketAddr};
 use std::path::PathBuf;
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use super::Span;
 use crate::access::Secret;
 
 /// All of it.
-#[derive(Clone, Debug, PartialEq, Default, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Default, Deserialize, Serialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Config {
     /// `[grpc]`
@@ -35,7 +35,7 @@ pub struct Config {
 }
 
 /// Where gRPC is served.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Grpc {
     /// Loopback only as long as there is no token; port 0 takes a free one.
@@ -43,7 +43,7 @@ pub struct Grpc {
 }
 
 /// Where REST is served.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Rest {
     /// Loopback only as long as there is no token; port 0 takes a free one.
@@ -53,7 +53,7 @@ pub struct Rest {
 }
 
 /// The certificates of both ports; no TLS where there is none.
-#[derive(Clone, Debug, PartialEq, Default, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Default, Deserialize, Serialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Tls {
     /// PEM: the service's certificate, and those between it and its root.
@@ -65,7 +65,7 @@ pub struct Tls {
 }
 
 /// Tokens that are not in the database.
-#[derive(Clone, Debug, PartialEq, Default, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Default, Deserialize, Serialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Access {
     /// An admin's token for all networks; meant for the environment.
@@ -75,7 +75,7 @@ pub struct Access {
 }
 
 /// The database.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Store {
     /// Its file; made where there is none.
@@ -83,7 +83,7 @@ pub struct Store {
 }
 
 /// How tours are planned.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Planning {
     /// Which solver plans.
@@ -105,7 +105,7 @@ pub struct Planning {
 }
 
 /// The trained policies.
-#[derive(Clone, Debug, PartialEq, Default, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Default, Deserialize, Serialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Policy {
     /// Folder with models that stand in place of those in the binary: `k_coverage.onnx`, `reward.onnx`,
@@ -114,7 +114,7 @@ pub struct Policy {
 }
 
 /// What bounds the edges.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Limits {
     /// Bytes of one message.
@@ -132,7 +132,7 @@ pub struct Limits {
 }
 
 /// How the service ends.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Lifecycle {
     /// Time for running calls and searches after the first signal.
@@ -140,7 +140,7 @@ pub struct Lifecycle {
 }
 
 /// What is logged, to standard error.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Log {
     /// How lines look.
@@ -150,7 +150,7 @@ pub struct Log {
 }
 
 /// How log lines look.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Format {
     /// For people.

@@ -32,7 +32,6 @@ impl Modify for Guarded {
             }
             add("401", "A token is needed, and none or no good one came");
             add("403", "The token's role may not, or it is not for all networks");
-            add("503", "Not now");
             let none: [&str; 0] = [];
             // The first: as long as the service has no token, none is needed.
             let ways = [SecurityRequirement::default()].into_iter();
@@ -43,7 +42,8 @@ impl Modify for Guarded {
     }
 }
 
-fn problem(description: &str) -> Response {
+/// A refusal, as it is described.
+pub(super) fn problem(description: &str) -> Response {
     let content = Content::new(Some(Ref::from_schema_name("Problem")));
     Response::builder().description(description).content(MEDIA_TYPE, content).build()
 }

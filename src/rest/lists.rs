@@ -34,8 +34,10 @@ fn in_path<T: FromStr<Err: Display>>(what: &str, path: Id, uri: &Uri) -> Result<
 
 /// Networks by id, without their specs.
 #[utoipa::path(get, path = "/v1/networks", tag = "networks", params(
-    ("limit" = Option<u32>, Query, description = "1 to 500; 50 where it is left out"),
-    ("cursor" = Option<String>, Query, description = "`next_cursor` of the page before"),
+    ("limit" = Option<u32>, Query, minimum = 1, maximum = 500,
+     description = "1 to 500; 50 where it is left out"),
+    ("cursor" = Option<String>, Query, max_length = 128,
+     description = "`next_cursor` of the page before; opaque"),
 ), responses(
     (status = 200, description = "A page", body = NetworkPage),
     (status = 400, description = "Bad parameters", body = Problem,
@@ -54,7 +56,8 @@ pub(super) async fn networks(
 
 /// The present version of a network, with its spec.
 #[utoipa::path(get, path = "/v1/networks/{id}", tag = "networks", params(
-    ("id" = String, Path, description = "A network's id"),
+    ("id" = String, Path, pattern = "^[A-Za-z0-9._:-]{1,64}$",
+     description = "A network's id"),
 ), responses(
     (status = 200, description = "The network", body = Network),
     (status = 404, description = "There is no such network", body = Problem,
@@ -73,11 +76,14 @@ pub(super) async fn network(
 
 /// Requests, newest first.
 #[utoipa::path(get, path = "/v1/requests", tag = "requests", params(
-    ("network" = Option<String>, Query, description = "Of this network"),
+    ("network" = Option<String>, Query, pattern = "^[A-Za-z0-9._:-]{1,64}$",
+     description = "Of this network"),
     ("sensor" = Option<String>, Query, description = "Of this sensor"),
     ("state" = Option<Vec<RequestState>>, Query, description = "In one of these states"),
-    ("limit" = Option<u32>, Query, description = "1 to 500; 50 where it is left out"),
-    ("cursor" = Option<String>, Query, description = "`next_cursor` of the page before"),
+    ("limit" = Option<u32>, Query, minimum = 1, maximum = 500,
+     description = "1 to 500; 50 where it is left out"),
+    ("cursor" = Option<String>, Query, max_length = 128,
+     description = "`next_cursor` of the page before; opaque"),
 ), responses(
     (status = 200, description = "A page", body = RequestPage),
     (status = 400, description = "Bad parameters", body = Problem,
@@ -122,11 +128,15 @@ pub(super) async fn request(
 
 /// Departures, newest first.
 #[utoipa::path(get, path = "/v1/departures", tag = "departures", params(
-    ("network" = Option<String>, Query, description = "Of this network"),
-    ("charger" = Option<String>, Query, description = "Of this charger"),
+    ("network" = Option<String>, Query, pattern = "^[A-Za-z0-9._:-]{1,64}$",
+     description = "Of this network"),
+    ("charger" = Option<String>, Query, pattern = "^[A-Za-z0-9._:-]{1,64}$",
+     description = "Of this charger"),
     ("state" = Option<Vec<DepartureState>>, Query, description = "In one of these states"),
-    ("limit" = Option<u32>, Query, description = "1 to 500; 50 where it is left out"),
-    ("cursor" = Option<String>, Query, description = "`next_cursor` of the page before"),
+    ("limit" = Option<u32>, Query, minimum = 1, maximum = 500,
+     description = "1 to 500; 50 where it is left out"),
+    ("cursor" = Option<String>, Query, max_length = 128,
+     description = "`next_cursor` of the page before; opaque"),
 ), responses(
     (status = 200, description = "A page", body = DeparturePage),
     (status = 400, description = "Bad parameters", body = Problem,

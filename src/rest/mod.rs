@@ -3,14 +3,17 @@
 
 mod accept;
 mod described;
+mod docs;
 mod dress;
 mod explanations;
+mod export;
 mod guard;
 mod health;
 mod immutable;
 mod lists;
 mod metrics;
 mod openapi;
+mod plan_forms;
 mod plans;
 mod problem;
 mod query;

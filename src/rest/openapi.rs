@@ -6,13 +6,13 @@ use axum::body::Body;
 use axum::http::header::CONTENT_TYPE;
 use axum::http::{HeaderValue, Uri};
 use axum::response::Response;
-use utoipa::OpenApi;
+use utoipa::{Modify, OpenApi, openapi};
 
-use super::described::Guarded;
+use super::described::{Guarded, problem};
 use super::problem::Problem;
 use super::query::Params;
 use super::view::PlanStatus;
-use super::{explanations, health, lists, metrics, plans};
+use super::{explanations, export, health, lists, metrics, plan_forms, plans};
 
 #[derive(OpenApi)]
 #[openapi(
@@ -30,7 +30,10 @@ use super::{explanations, health, lists, metrics, plans};
         lists::departures,
         lists::departure,
         plans::plans,
-        plans::plan,
+        export::plans,
+        plan_forms::plan,
+        plan_forms::picture,
+        plan_forms::map,
         plans::scenario,
         explanations::explanation,
         metrics::metrics,
@@ -38,9 +41,33 @@ use super::{explanations, health, lists, metrics, plans};
         health::readyz,
     ),
     components(schemas(PlanStatus)),
-    modifiers(&Guarded)
+    modifiers(&Guarded, &Refusals)
 )]
 struct Api;
+
+/// What any operation may answer, whatever it is.
+const REFUSALS: [(&str, &str); 5] = [
+    ("400", "Bad parameters"),
+    ("406", "Neither gzip nor the plain answer is acceptable"),
+    ("500", "The service failed; its log says why"),
+    ("503", "Not now"),
+    ("504", "It took too long"),
+];
+
+/// Writes [`REFUSALS`] to every operation, beside what it says itself.
+struct Refusals;
+
+impl Modify for Refusals {
+    fn modify(&self, api: &mut openapi::OpenApi) {
+        let operations = api.paths.paths.values_mut().filter_map(|path| path.get.as_mut());
+        for operation in operations {
+            for (status, text) in REFUSALS {
+                let responses = &mut operation.responses.responses;
+                responses.entry(status.to_owned()).or_insert_with(|| problem(text).into());
+            }
+        }
+    }
+}
 
 static DOCUMENT: LazyLock<Result<String, serde_json::Error>> =
     LazyLock::new(|| Api::openapi().to_pretty_json());
@@ -74,6 +101,35 @@ mod tests {
         }
     }
 
+    /// `just openapi` writes the file again.
+    #[test]
+    fn the_checked_in_document_is_this_one() {
+        let text = Api::openapi().to_pretty_json().unwrap() + "\n";
+        let file = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/openapi.json");
+        if std::env::var_os("VOLTOUR_WRITE_OPENAPI").is_some() {
+            std::fs::write(file, &text).unwrap();
+        }
+        let checked_in = std::fs::read_to_string(file).unwrap_or_default();
+        let differs = text.lines().zip(checked_in.lines()).find(|(made, read)| made != read);
+        assert_eq!(
+            differs, None,
+            "made from the handlers, docs/openapi.json; `just openapi` writes it"
+        );
+        assert_eq!(text.lines().count(), checked_in.lines().count(), "`just openapi` writes it");
+    }
+
+    #[test]
+    fn every_operation_has_a_name_of_its_own_and_tells_its_refusals() {
+        let mut names = std::collections::HashSet::new();
+        for (path, item) in Api::openapi().paths.paths {
+            let operation = item.get.unwrap();
+            assert!(names.insert(operation.operation_id), "{path}");
+            for (status, _) in REFUSALS {
+                assert!(operation.responses.responses.contains_key(status), "{path} {status}");
+            }
+        }
+    }
+
     #[test]
     fn every_route_is_described() {
         let api = Api::openapi();
@@ -90,7 +146,10 @@ mod tests {
                 "/v1/networks",
                 "/v1/networks/{id}",
                 "/v1/plans",
+                "/v1/plans.csv",
                 "/v1/plans/{id}",
+                "/v1/plans/{id}.geojson",
+                "/v1/plans/{id}.svg",
                 "/v1/plans/{id}/explanation",
                 "/v1/plans/{id}/scenario",
                 "/v1/requests",

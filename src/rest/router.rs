@@ -7,7 +7,9 @@ use axum::routing::get;
 use super::dress::dress;
 use super::guard::{Guard, guard};
 use super::routes::Routes;
-use super::{RestState, explanations, health, lists, metrics, openapi, plans};
+use super::{
+    RestState, docs, explanations, export, health, lists, metrics, openapi, plan_forms, plans,
+};
 
 /// Every route of the REST edge, with its layers.
 pub fn router(state: RestState, behind: Guard) -> Router {
@@ -24,11 +26,15 @@ fn routes() -> Routes<RestState> {
         .route("/v1/departures", get(lists::departures))
         .route("/v1/departures/{id}", get(lists::departure))
         .route("/v1/plans", get(plans::plans))
-        // One segment holds no parameter with a suffix: the handler splits `{id}` and `{id}.svg`.
-        .route("/v1/plans/{id}", get(plans::plan))
+        .route("/v1/plans.csv", get(export::plans))
+        // One segment holds no parameter with a suffix: the handler tells `{id}`, `{id}.svg` and `{id}.geojson`.
+        .route("/v1/plans/{id}", get(plan_forms::by_name))
         .route("/v1/plans/{id}/scenario", get(plans::scenario))
         .route("/v1/plans/{id}/explanation", get(explanations::explanation))
         .route("/openapi.json", get(openapi::document))
+        .route("/docs", get(docs::to_page))
+        .route("/docs/", get(docs::page))
+        .route("/docs/{file}", get(docs::file))
         .route("/metrics", get(metrics::metrics))
         .route("/healthz", get(health::healthz))
         .route("/readyz", get(health::readyz))

@@ -21,6 +21,7 @@ mod onnx;
 mod access;
 mod bad_input;
 mod batch;
+mod config;
 mod crash;
 mod downtime;
 mod explanations;

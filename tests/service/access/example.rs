@@ -151,14 +151,16 @@ impl World {
             Some("requests") if route.contains("{id}") => id(&self.request),
             Some("departures") if route.contains("{id}") => id(&self.departure),
             Some("plans") if route.ends_with("{id}") => {
-                vec![format!("/v1/plans/{}", self.plan), format!("/v1/plans/{}.svg", self.plan)]
+                let forms = ["", ".svg", ".geojson", ".geojson?origin=11.58,48.14"];
+                forms.map(|form| format!("/v1/plans/{}{form}", self.plan)).into()
             }
             Some("plans") if route.contains("{id}") => id(&self.plan),
             // Of a list: all of it, and what belongs to this network.
-            Some("requests" | "departures" | "plans") => {
+            Some("requests" | "departures" | "plans" | "plans.csv") => {
                 vec![route.to_owned(), format!("{route}?network={}", self.network)]
             }
-            Some("networks") => vec![route.to_owned()],
+            Some("networks" | "") => vec![route.to_owned()],
+            Some("{file}") => vec![route.replace("{file}", "index.html")],
             Some(_) => panic!("{route} needs its paths here"),
         }
     }
