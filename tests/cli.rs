@@ -380,3 +380,61 @@ fn what_cannot_be_written_is_said() {
     let output = voltour(&["solve", "-", "--iterations", "1", "-o", "/nowhere/plan.json"], SMALL);
     assert!(refused(&output).contains("/nowhere/plan.json"));
 }
+
+#[test]
+fn the_papers_tables_are_drawn_anew() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out").to_str().unwrap().to_owned();
+    let document = file(
+        folder.path(),
+        "d.md",
+        "# D\n<!-- bench reward-capacity -->\n<!-- bench end -->\nend\n",
+    );
+    let bench = |more: &[&str]| {
+        let given = ["bench", "paper", "--scenarios", "1", "--iterations", "20", "--out", &out];
+        voltour(&[&given[..], more].concat(), "")
+    };
+    let line = refused(&bench(&["network-size", "--document", &document]));
+    assert!(line.contains("must have <!-- bench network-size -->"), "{line}");
+    let output = bench(&["reward-capacity", "--document", &document]);
+    assert_eq!(code(&output), 0, "{}", text(&output.stderr));
+    let tables = text(&output.stdout);
+    assert!(tables.contains("| 350 | mst |") && tables.contains("| 1 of 1 |"), "{tables}");
+    let renewed = fs::read_to_string(&document).unwrap();
+    assert!(renewed.contains("| 350 | mst |") && renewed.ends_with("<!-- bench end -->\nend\n"));
+    for name in
+        ["out/tables.md", "out/runs.csv", "out/reward-capacity.csv", "d/reward-capacity.svg"]
+    {
+        assert!(folder.path().join(name).is_file(), "{name}");
+    }
+    // Given again, it has nothing left to run and says the same.
+    assert_eq!(text(&bench(&["reward-capacity"]).stdout), tables);
+    let line = refused(&bench(&["reward-capacity", "--seed", "1"]));
+    assert!(line.contains("seed is 0 for the runs in this folder, not 1"), "{line}");
+    let output = bench(&["size"]);
+    assert_eq!(code(&output), 2);
+    assert!(text(&output.stderr).contains("must be one of mobile-network-size,"));
+}
+
+#[test]
+fn public_instances_are_measured_against_their_best_values() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out").to_str().unwrap().to_owned();
+    let instances = folder.path().to_str().unwrap();
+    let bench =
+        || voltour(&["bench", "public", instances, "--solvers", "greedy,exact", "--out", &out], "");
+    assert!(refused(&bench()).contains("best.csv"));
+    file(folder.path(), "small.json", SMALL);
+    file(
+        folder.path(),
+        "best.csv",
+        "file,objective,best_known,proven,source\nsmall.json,min_distance,100,no,own\n",
+    );
+    let output = bench();
+    assert_eq!(code(&output), 0, "{}", text(&output.stderr));
+    assert!(
+        text(&output.stdout).contains("| exact | 1 of 1 | 0 | 182.84 % |"),
+        "{}",
+        text(&output.stdout)
+    );
+}
