@@ -7,7 +7,7 @@ python := justfile_directory() / "target/python"
 check: checks test
 
 # All of it but the tests in Rust.
-checks: fmt lint layers docs client onnx
+checks: fmt lint layers docs client contract onnx
 
 # Formatting.
 fmt:
@@ -38,6 +38,18 @@ docs:
 # A Python client generated from proto/ alone does the whole round against a real server.
 client: python build
     {{python}}/bin/python tests/client/round.py target/debug/voltour
+
+# The REST edge against the OpenAPI document that it serves: no server error, nothing that is not described.
+contract: python build
+    {{python}}/bin/python tests/client/contract.py target/debug/voltour
+
+# Writes docs/openapi.json as the handlers make it; a test compares the two.
+openapi:
+    VOLTOUR_WRITE_OPENAPI=1 cargo test --workspace --locked --lib openapi
+
+# At a release: the contract as it is becomes the one that nothing may be taken back from.
+released:
+    cp proto/voltour/v1/*.proto tests/proto/released/voltour/v1/
 
 # A model as the trainer writes it passes the ONNX checker, and onnxruntime computes what the trainer does.
 onnx: python build

@@ -9,17 +9,19 @@ use tokio::net::TcpListener;
 use tokio::task::JoinHandle;
 use tokio_util::sync::CancellationToken;
 
+use crate::access::{Gate, Secret};
 use crate::clock::Clock;
-use crate::config::Config;
+use crate::config::{Config, ConfigError};
 use crate::explainer::Explainer;
 use crate::grpc::{Edge, Server, ServerError};
 use crate::lifecycle::Lifecycle;
 use crate::listen::Counted;
 use crate::metrics::Metrics;
 use crate::policy::{self, Shelf};
-use crate::rest::{self, RestState};
+use crate::rest::{self, Guard, RestState};
 use crate::scheduler::{self, Running};
 use crate::store::{Store, StoreError};
+use crate::tls::{Tls, TlsError};
 
 /// Why the service did not start, or did not end well.
 #[derive(Debug, thiserror::Error)]
@@ -31,6 +33,27 @@ pub enum AppError {
         path: String,
         /// What is wrong with it.
         source: StoreError,
+    },
+    /// The configuration names something that is not as it should be.
+    #[error("{0}")]
+    Config(#[from] ConfigError),
+    /// The certificates are no good.
+    #[error("{0}")]
+    Tls(#[from] TlsError),
+    /// Whoever reaches the service could do everything.
+    #[error(
+        "{key}: {address} must be a loopback address, such as 127.0.0.1 or [::1], as long as there is no token, \
+         for whoever reaches the service could do everything; make a token (voltour token create NAME --role admin \
+         --all-networks --database {path:?}), or give one (VOLTOUR_ACCESS__BOOTSTRAP_TOKEN, or the file \
+         access.bootstrap_token_file)"
+    )]
+    Exposed {
+        /// The configuration's key.
+        key: &'static str,
+        /// Its value.
+        address: SocketAddr,
+        /// The database.
+        path: String,
     },
     /// The address is taken, say.
     #[error("{key}: {address} cannot be listened on: {source}")]
@@ -59,6 +82,13 @@ pub enum AppError {
     Hard,
 }
 
+impl AppError {
+    /// Whether the configuration is to blame.
+    pub fn is_input(&self) -> bool {
+        matches!(self, Self::Config(_) | Self::Tls(_) | Self::Exposed { .. })
+    }
+}
+
 /// The running service.
 #[derive(Debug)]
 pub struct App {
@@ -66,6 +96,8 @@ pub struct App {
     pub grpc: SocketAddr,
     /// Where REST is served.
     pub rest: SocketAddr,
+    /// What both are called with: `http` or `https`.
+    pub scheme: &'static str,
     policies: Shelf,
     metrics: Metrics,
     lifecycle: Lifecycle,
@@ -86,12 +118,20 @@ impl App {
         clock: Arc<dyn Clock>,
         lifecycle: Lifecycle,
     ) -> Result<Self, AppError> {
+        let (bootstrap, tls) = (config.bootstrap()?, Tls::open(&config.tls)?);
         let folder = config.policy.folder.clone();
         let policies = tokio::task::spawn_blocking(move || Shelf::open(folder.as_deref())).await?;
         let path = &config.store.path;
         let opened = Store::open(path, clock.clone()).await;
         let store =
             opened.map_err(|source| AppError::Open { path: path.display().to_string(), source })?;
+        let gate = match guarded(config, &store, bootstrap.as_ref()).await {
+            Ok(gate) => gate,
+            Err(error) => {
+                store.close().await?;
+                return Err(error);
+            }
+        };
         let cancel = CancellationToken::new();
         let settings = config.settings();
         let metrics = Metrics::default();
@@ -113,12 +153,18 @@ impl App {
             }
         };
         let soft = lifecycle.soft.clone();
-        let edge = Edge::new(handle.clone(), config.grpc_limits(), soft.clone());
-        let rest = Counted::new(rest, config.limits.connections);
+        let acceptor = |protocol| tls.as_ref().map(|tls| tls.acceptor(protocol));
+        let counted = |listener, protocol| {
+            Counted::new(listener, config.limits.connections, acceptor(protocol))
+        };
+        let (grpc, rest) = (counted(grpc, "h2"), counted(rest, "http/1.1"));
+        let edge = Edge::new(handle.clone(), gate.clone(), config.grpc_limits(), soft.clone());
+        let guard = Guard::new(gate.clone(), rest_at.ip().is_loopback(), &config.rest.hosts);
         let state = RestState::new(handle.reads().clone(), metrics.clone(), soft.clone());
+        tokio::spawn(gate.follow(soft.clone()));
         let servers = [
             tokio::spawn(async move { Ok(Server::new(edge, grpc).run().await?) }),
-            tokio::spawn(serve_rest(rest, state, soft)),
+            tokio::spawn(serve_rest(rest, rest::router(state, guard), soft)),
         ];
         let soft = lifecycle.soft.clone();
         let counted = metrics.clone();
@@ -126,6 +172,7 @@ impl App {
         Ok(Self {
             grpc: grpc_at,
             rest: rest_at,
+            scheme: if tls.is_some() { "https" } else { "http" },
             policies,
             metrics,
             lifecycle,
@@ -135,6 +182,12 @@ impl App {
             running,
             scheduler: cancel,
         })
+    }
+
+    /// The line that says where it answers.
+    pub fn ready(&self) -> String {
+        let Self { scheme, grpc, rest, .. } = self;
+        format!("voltour ready grpc={scheme}://{grpc} rest={scheme}://{rest}")
     }
 
     /// Loads the policies again at every SIGHUP from now on.
@@ -204,12 +257,40 @@ async fn listen(
     Ok((listener, at))
 }
 
+/// The gate, if the addresses that are configured may be listened on behind it.
+async fn guarded(
+    config: &Config,
+    store: &Store,
+    bootstrap: Option<&Secret>,
+) -> Result<Gate, AppError> {
+    let gate = Gate::open(store.reads.clone(), bootstrap).await?;
+    for (key, address) in [("grpc.listen", config.grpc.listen), ("rest.listen", config.rest.listen)]
+    {
+        if address.ip().is_loopback() {
+            continue;
+        }
+        if !gate.is_closed() {
+            let path = config.store.path.display().to_string();
+            return Err(AppError::Exposed { key, address, path });
+        }
+        if config.tls.certificate_file.is_none() {
+            tracing::warn!(key, %address, "without TLS tokens can be read on their way; see [tls]");
+        }
+    }
+    if gate.is_closed() {
+        tracing::info!("every call needs a token, but for health checks");
+    } else {
+        tracing::info!("there is no token: whoever reaches the service may do everything");
+    }
+    Ok(gate)
+}
+
 async fn serve_rest(
     listener: Counted,
-    state: RestState,
+    routes: axum::Router,
     stop: CancellationToken,
 ) -> Result<(), AppError> {
-    axum::serve(listener, rest::router(state))
+    axum::serve(listener, routes)
         .with_graceful_shutdown(stop.cancelled_owned())
         .await
         .map_err(AppError::Rest)

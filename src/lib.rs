@@ -1,5 +1,6 @@
 //! The voltour service: takes charging requests, plans tours, keeps both.
 
+pub mod access;
 pub mod app;
 pub mod bench;
 pub mod cli;
@@ -8,6 +9,7 @@ pub mod config;
 pub mod demo;
 pub mod domain;
 pub mod explainer;
+pub mod geojson;
 pub mod grpc;
 pub mod lifecycle;
 pub mod listen;
@@ -19,6 +21,7 @@ pub mod scheduler;
 pub mod store;
 pub mod svg;
 pub mod telemetry;
+pub mod tls;
 
 /// The generated gRPC contract. Only the gRPC edge and the clients see it.
 #[allow(missing_docs, clippy::all, clippy::pedantic)]

@@ -1,6 +1,7 @@
-//! Listening: loopback only, and no more connections at once than allowed; further ones wait in the
-//! system's queue.
+//! Listening: with TLS or without, and no more connections at once than allowed; further ones wait in
+//! the system's queue.
 
+use std::fmt;
 use std::io;
 use std::net::SocketAddr;
 use std::pin::Pin;
@@ -12,49 +13,92 @@ use futures_util::stream::{self, Stream};
 use tokio::io::{AsyncRead, AsyncWrite, ReadBuf};
 use tokio::net::{TcpListener, TcpStream};
 use tokio::sync::{OwnedSemaphorePermit, Semaphore};
+use tokio::task::JoinSet;
+use tokio_rustls::TlsAcceptor;
+use tokio_rustls::server::TlsStream;
+use tokio_util::either::Either;
 use tonic::transport::server::{Connected, TcpConnectInfo};
 
 /// After a failed accept (out of file descriptors, say) so long is waited for some to be closed.
 const AGAIN: Duration = Duration::from_millis(100);
 
+/// A client has so long to shake hands.
+const HANDSHAKE: Duration = Duration::from_secs(10);
+
 /// A listener that counts its connections.
-#[derive(Debug)]
 pub struct Counted {
     listener: TcpListener,
     room: Arc<Semaphore>,
+    tls: Option<TlsAcceptor>,
+    /// Each holds its place among the connections: there are no more of them than of these.
+    handshakes: JoinSet<Option<(Connection, SocketAddr)>>,
+}
+
+impl fmt::Debug for Counted {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Counted").field("listener", &self.listener).finish_non_exhaustive()
+    }
 }
 
 impl Counted {
-    /// At most so many connections at once.
-    pub fn new(listener: TcpListener, connections: usize) -> Self {
-        Self { listener, room: Arc::new(Semaphore::new(connections)) }
+    /// At most so many connections at once, with TLS if there is an acceptor.
+    pub fn new(listener: TcpListener, connections: usize, tls: Option<TlsAcceptor>) -> Self {
+        let room = Arc::new(Semaphore::new(connections));
+        Self { listener, room, tls, handshakes: JoinSet::new() }
     }
 
-    async fn next(&self) -> (Connection, SocketAddr) {
+    async fn next(&mut self) -> (Connection, SocketAddr) {
         loop {
-            // The semaphore is never closed; without a permit the connection would merely be uncounted.
-            let permit = self.room.clone().acquire_owned().await.ok();
-            match self.listener.accept().await {
-                Ok((stream, peer)) => {
-                    // Small answers must not wait for more to send; where that fails they do.
-                    let _ = stream.set_nodelay(true);
-                    return (Connection { stream, _permit: permit }, peer);
+            let (stream, permit, peer) = tokio::select! {
+                accepted = accept(&self.listener, &self.room) => accepted,
+                Some(shaken) = self.handshakes.join_next() => match shaken {
+                    Ok(Some(ready)) => return ready,
+                    _ => continue,
+                },
+            };
+            let Some(tls) = self.tls.clone() else {
+                return (Connection { stream: Either::Left(stream), _permit: permit }, peer);
+            };
+            // Beside the others: who is slow at it holds up nobody else.
+            self.handshakes.spawn(async move {
+                match tokio::time::timeout(HANDSHAKE, tls.accept(stream)).await {
+                    Ok(Ok(stream)) => {
+                        let stream = Either::Right(Box::new(stream));
+                        return Some((Connection { stream, _permit: permit }, peer));
+                    }
+                    Ok(Err(error)) => tracing::debug!(%peer, %error, "no TLS with a client"),
+                    Err(_) => tracing::debug!(%peer, "no TLS with a client in time"),
                 }
-                Err(error) => {
-                    tracing::warn!(%error, "a connection was not accepted");
-                    tokio::time::sleep(AGAIN).await;
-                }
+                None
+            });
+        }
+    }
+}
+
+async fn accept(
+    listener: &TcpListener,
+    room: &Arc<Semaphore>,
+) -> (TcpStream, Option<OwnedSemaphorePermit>, SocketAddr) {
+    loop {
+        // The semaphore is never closed; without a permit the connection would merely be uncounted.
+        let permit = room.clone().acquire_owned().await.ok();
+        match listener.accept().await {
+            Ok((stream, peer)) => {
+                // Small answers must not wait for more to send; where that fails they do.
+                let _ = stream.set_nodelay(true);
+                return (stream, permit, peer);
+            }
+            Err(error) => {
+                tracing::warn!(%error, "a connection was not accepted");
+                tokio::time::sleep(AGAIN).await;
             }
         }
     }
 }
 
 /// The connections of a listener, for tonic.
-pub fn incoming(
-    listener: TcpListener,
-    connections: usize,
-) -> impl Stream<Item = io::Result<Connection>> {
-    stream::unfold(Counted::new(listener, connections), |listener| async {
+pub fn incoming(listener: Counted) -> impl Stream<Item = io::Result<Connection>> {
+    stream::unfold(listener, |mut listener| async {
         let (connection, _) = listener.next().await;
         Some((Ok(connection), listener))
     })
@@ -74,17 +118,25 @@ impl axum::serve::Listener for Counted {
 }
 
 /// A connection that is counted until it is dropped.
-#[derive(Debug)]
 pub struct Connection {
-    stream: TcpStream,
+    stream: Either<TcpStream, Box<TlsStream<TcpStream>>>,
     _permit: Option<OwnedSemaphorePermit>,
+}
+
+impl fmt::Debug for Connection {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Connection").finish_non_exhaustive()
+    }
 }
 
 impl Connected for Connection {
     type ConnectInfo = TcpConnectInfo;
 
     fn connect_info(&self) -> TcpConnectInfo {
-        self.stream.connect_info()
+        match &self.stream {
+            Either::Left(stream) => stream.connect_info(),
+            Either::Right(stream) => stream.get_ref().0.connect_info(),
+        }
     }
 }
 

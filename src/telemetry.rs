@@ -28,10 +28,8 @@ pub enum TelemetryError {
 /// # Errors
 /// The filter cannot be read, or logging has begun before.
 pub fn init(log: &Log) -> Result<(), TelemetryError> {
-    let filter = EnvFilter::try_new(&log.filter)
-        .map_err(|source| TelemetryError::Filter { value: log.filter.clone(), source })?;
     let builder = tracing_subscriber::fmt()
-        .with_env_filter(filter)
+        .with_env_filter(filter(log)?)
         .with_writer(io::stderr)
         .with_ansi(io::stderr().is_terminal());
     match log.format {
@@ -39,4 +37,13 @@ pub fn init(log: &Log) -> Result<(), TelemetryError> {
         Format::Json => builder.json().finish().try_init()?,
     }
     Ok(())
+}
+
+/// The filter, which has a grammar of its own.
+///
+/// # Errors
+/// It cannot be read.
+pub fn filter(log: &Log) -> Result<EnvFilter, TelemetryError> {
+    EnvFilter::try_new(&log.filter)
+        .map_err(|source| TelemetryError::Filter { value: log.filter.clone(), source })
 }

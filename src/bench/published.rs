@@ -29,7 +29,7 @@ impl Figures {
 
     /// How many rows there are.
     #[cfg(test)]
-    pub fn len(&self) -> usize {
+    pub fn count(&self) -> usize {
         self.0.len()
     }
 }

@@ -5,7 +5,9 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-use super::{bench, check, explain, generate, operator, policies, serve, solve};
+use super::{
+    bench, check, config, explain, generate, operator, pages, policies, serve, solve, token,
+};
 
 /// Plans the tours of mobile chargers in wireless rechargeable sensor networks.
 #[derive(Debug, Parser)]
@@ -54,6 +56,16 @@ pub enum Command {
     Policy(policies::Command),
     /// Run the scheduling service, or its demonstration
     Serve(serve::Args),
+    /// Make and revoke API tokens, on the service's machine
+    #[command(subcommand)]
+    Token(token::Command),
+    /// Look at the configuration
+    #[command(subcommand)]
+    Config(config::Command),
+    /// Print the completions of a shell
+    Completions(pages::Completions),
+    /// Write the man pages
+    Man(pages::Man),
     /// What an operator does with a running service.
     #[command(flatten)]
     Operator(operator::Command),
@@ -69,6 +81,10 @@ pub fn run(cli: Cli) -> ExitCode {
         Command::Bench(command) => bench::run(command),
         Command::Policy(command) => policies::run(command),
         Command::Serve(args) => serve::run(args),
+        Command::Token(command) => token::run(command),
+        Command::Config(command) => config::run(command),
+        Command::Completions(args) => pages::completions(args),
+        Command::Man(args) => pages::man(args),
         Command::Operator(command) => operator::run(command),
     };
     done.unwrap_or_else(|failure| {

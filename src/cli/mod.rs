@@ -4,6 +4,7 @@
 pub mod bench;
 pub mod check;
 mod command;
+pub mod config;
 mod documents;
 pub mod explain;
 pub mod failure;
@@ -11,12 +12,14 @@ pub mod generate;
 mod input;
 pub mod operator;
 mod out;
+pub mod pages;
 mod paper;
 pub mod policies;
 mod pretty;
 pub mod serve;
 pub mod solve;
 mod stopwatch;
+pub mod token;
 
 pub use command::{Cli, Command, run};
 pub use failure::Failure;

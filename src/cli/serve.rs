@@ -9,9 +9,9 @@ use std::time::Duration;
 use tokio::runtime::Builder;
 
 use super::{Failure, say};
-use crate::app::App;
+use crate::app::{App, AppError};
 use crate::clock::SystemClock;
-use crate::config::{self, Config};
+use crate::config::{self, Config, Setting};
 use crate::lifecycle::Lifecycle;
 use crate::{demo, telemetry};
 
@@ -22,6 +22,9 @@ pub struct Args {
     /// TOML file with the configuration; every key has a default
     #[arg(long, value_name = "FILE")]
     pub config: Option<PathBuf>,
+    /// Set a key of the configuration, over the file and the environment; may be repeated
+    #[arg(long, value_name = "SECTION.KEY=VALUE", conflicts_with = "demo")]
+    pub set: Vec<Setting>,
     /// Play a base station and a charger against the service, in fast motion
     #[arg(long)]
     pub demo: bool,
@@ -38,9 +41,16 @@ trained policies again; one that does not pass its checks is refused, and that f
 
 Configuration, as TOML (these are the defaults):
   [grpc]
-  listen = \"127.0.0.1:7440\"    # loopback only; port 0 takes a free one
+  listen = \"127.0.0.1:7440\"    # loopback only as long as there is no token; port 0 takes a free one
   [rest]
   listen = \"127.0.0.1:7480\"
+  hosts = []                   # names beside localhost that are answered to on a loopback address
+  [tls]                        # of both ports; PEM
+  # certificate_file = \"voltour.crt\"
+  # key_file = \"voltour.key\"
+  # client_ca_file = \"clients.crt\"  # only clients with a certificate of this authority
+  [access]
+  # bootstrap_token_file = \"token\"  # an admin's token for all networks
   [store]
   path = \"voltour.db\"          # made where there is none
   [planning]
@@ -67,7 +77,12 @@ Configuration, as TOML (these are the defaults):
   format = \"text\"              # or json
   filter = \"info\"
 
-The environment goes before the file: VOLTOUR_PLANNING__BUDGET=1s, VOLTOUR_LOG__FORMAT=json.
+The environment goes before the file: VOLTOUR_PLANNING__BUDGET=1s, VOLTOUR_LOG__FORMAT=json. The command line goes
+before both: --set planning.budget=1s. `voltour config check` and `config print` say what comes of it.
+
+Who may do what: as long as there is no token, everybody who reaches the service, which is why it listens on
+loopback only. From the first token on (`voltour token create`, or an admin's in VOLTOUR_ACCESS__BOOTSTRAP_TOKEN or
+in access.bootstrap_token_file) every call needs one, but for those that ask whether the service lives.
 
 The demonstration (--demo) takes free ports where the usual ones are taken, and keeps its database in
 a temporary directory unless --config is given.";
@@ -77,7 +92,7 @@ const LAST: Duration = Duration::from_secs(1);
 
 /// Runs the command.
 pub fn run(args: Args) -> Result<ExitCode, Failure> {
-    let config = config::load(args.config.as_deref())
+    let config = config::load_with(args.config.as_deref(), &args.set)
         .map_err(|errors| Failure { code: 2, lines: errors.0 })?;
     if args.demo {
         // Its lines are the demonstration; of the log only what goes wrong.
@@ -96,10 +111,16 @@ async fn serve(config: Config) -> Result<(), Failure> {
     let failed = |error: &dyn std::error::Error| Failure::other(error.to_string());
     lifecycle.listen().map_err(|error| failed(&error))?;
     let started = App::start(&config, Arc::new(SystemClock), lifecycle).await;
-    let app = started.map_err(|error| failed(&error))?;
+    let app = started.map_err(not_started)?;
     app.reload_on_hangup().map_err(|error| failed(&error))?;
-    say(format!("voltour ready grpc=http://{} rest=http://{}", app.grpc, app.rest));
+    say(app.ready());
     app.run().await.map_err(|error| failed(&error))
+}
+
+/// Why the service did not start.
+pub(crate) fn not_started(error: AppError) -> Failure {
+    let line = error.to_string();
+    if error.is_input() { Failure::input(line) } else { Failure::other(line) }
 }
 
 /// Runs a future on a runtime of its own, to an exit code.

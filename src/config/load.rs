@@ -1,15 +1,16 @@
 //! Loading and checking.
 
 use std::fmt::Display;
-use std::net::SocketAddr;
 use std::path::Path;
 use std::time::Duration;
 
 use figment::Figment;
+use figment::error::Kind;
 use figment::providers::{Env, Format as _, Toml};
 use voltour_solver::solvers::SolverName;
 
-use super::{Config, Span};
+use super::print::is_secret;
+use super::{Config, Setting, Span};
 use crate::explainer;
 use crate::grpc;
 use crate::scheduler;
@@ -24,6 +25,14 @@ pub struct ConfigError(pub Vec<String>);
 /// # Errors
 /// The file cannot be read, a key is unknown, or a value breaks a rule.
 pub fn load(file: Option<&Path>) -> Result<Config, ConfigError> {
+    load_with(file, &[])
+}
+
+/// As [`load`], then the settings of the command line, the last of a key before the others.
+///
+/// # Errors
+/// The file cannot be read, a key is unknown, or a value breaks a rule.
+pub fn load_with(file: Option<&Path>, settings: &[Setting]) -> Result<Config, ConfigError> {
     let mut figment = Figment::new();
     if let Some(file) = file {
         figment = figment.merge(Toml::file_exact(file));
@@ -31,8 +40,11 @@ pub fn load(file: Option<&Path>) -> Result<Config, ConfigError> {
     // Only keys of sections: VOLTOUR_SERVER, without a section, is the operator's commands'.
     let environment =
         Env::prefixed("VOLTOUR_").filter(|key| key.as_str().contains("__")).split("__");
+    figment = figment.merge(environment);
+    for setting in settings {
+        figment = figment.merge(setting);
+    }
     let config: Config = figment
-        .merge(environment)
         .extract()
         .map_err(|errors| ConfigError(errors.into_iter().map(|error| line(&error)).collect()))?;
     config.check()?;
@@ -41,14 +53,31 @@ pub fn load(file: Option<&Path>) -> Result<Config, ConfigError> {
 
 fn line(error: &figment::Error) -> String {
     let key = error.path.join(".");
+    let kind = match &error.kind {
+        // Without the line of the file that a parser shows: a token may stand there.
+        Kind::Message(text) => {
+            text.lines().filter(|line| !is_quoted(line)).collect::<Vec<_>>().join(" ")
+        }
+        // The others say what they have found.
+        _ if error.path.iter().any(|part| is_secret(part)) => "must be a text".to_owned(),
+        kind => kind.to_string(),
+    };
     let source = error.metadata.as_ref().map(|metadata| match &metadata.source {
         Some(source) => format!(" (in {source})"),
         None => format!(" (in {})", metadata.name),
     });
     let separator = if key.is_empty() { "" } else { ": " };
-    let text = format!("{key}{separator}{}{}", error.kind, source.unwrap_or_default());
+    let text = format!("{key}{separator}{kind}{}", source.unwrap_or_default());
     // One line, whatever a parser put into its message.
     text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+/// Whether a parser quotes a file with this line: ` 2 | seed = "7"`.
+fn is_quoted(line: &str) -> bool {
+    line.trim_start()
+        .trim_start_matches(|digit: char| digit.is_ascii_digit())
+        .trim_start()
+        .starts_with('|')
 }
 
 impl Config {
@@ -94,8 +123,7 @@ impl Config {
     /// Every rule that the types do not keep.
     fn check(&self) -> Result<(), ConfigError> {
         let mut errors = Errors::default();
-        errors.loopback("grpc.listen", self.grpc.listen);
-        errors.loopback("rest.listen", self.rest.listen);
+        self.check_access(&mut errors.0);
         let same = self.grpc.listen == self.rest.listen && self.grpc.listen.port() != 0;
         errors.check(!same, "rest.listen", self.rest.listen, "must not be that of grpc.listen");
         let path = self.store.path.display();
@@ -157,12 +185,6 @@ impl Errors {
         let rule = format!("must be from {least} to {most}");
         self.check(value >= least && value <= most, key, value, &rule);
     }
-
-    fn loopback(&mut self, key: &str, listen: SocketAddr) {
-        let rule = "must be a loopback address, such as 127.0.0.1 or [::1]: \
-                    whoever reaches the service may do everything, as it has no authentication yet";
-        self.check(listen.ip().is_loopback(), key, listen, rule);
-    }
 }
 
 #[cfg(test)]
@@ -205,15 +227,6 @@ mod tests {
     }
 
     #[test]
-    fn other_addresses_than_loopback_are_refused() {
-        for address in ["0.0.0.0:7440", "[::]:7440", "192.168.1.1:80"] {
-            let errors = errors(&format!("[grpc]\nlisten = \"{address}\""));
-            assert!(errors[0].starts_with("grpc.listen: "), "{errors:?}");
-            assert!(errors[0].contains(address) && errors[0].contains("loopback"), "{errors:?}");
-        }
-    }
-
-    #[test]
     fn every_error_names_key_value_and_rule() {
         let cases = [
             ("[planning]\nbugdet = \"2s\"", "planning", "bugdet"),
@@ -224,6 +237,10 @@ mod tests {
             ("[planning]\nexplanation_budget = \"1h\"", "explanation_budget: 1h", "from 0s to 10m"),
             ("[planning]\nthreads = 0", "planning.threads: 0", "from 1 to 64"),
             ("[policy]\nfolder = \"\"", "policy.folder", "must name a folder"),
+            ("[tls]\nkey_file = \"k.pem\"", "tls.certificate_file", "tls.key_file"),
+            ("[tls]\nclient_ca_file = \"c.pem\"", "tls.client_ca_file", "tls.certificate_file"),
+            ("[access]\nbootstrap_token = \"short\"", "access.bootstrap_token", "32 to 256"),
+            ("[rest]\nhosts = [\"a/b\"]", "rest.hosts", "\"a/b\" must be the name of a host"),
             ("[limits]\nstreams = -1", "limits.streams", "-1"),
             ("[log]\nformat = \"xml\"", "log.format", "xml"),
             ("[grpc]\nlisten = \"here\"", "grpc.listen", "socket address"),

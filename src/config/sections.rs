@@ -3,18 +3,23 @@
 use std::net::{Ipv4Addr, SocketAddr};
 use std::path::PathBuf;
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use super::Span;
+use crate::access::Secret;
 
 /// All of it.
-#[derive(Clone, Debug, PartialEq, Default, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Default, Deserialize, Serialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Config {
     /// `[grpc]`
     pub grpc: Grpc,
     /// `[rest]`
     pub rest: Rest,
+    /// `[tls]`
+    pub tls: Tls,
+    /// `[access]`
+    pub access: Access,
     /// `[store]`
     pub store: Store,
     /// `[planning]`
@@ -30,23 +35,47 @@ pub struct Config {
 }
 
 /// Where gRPC is served.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Grpc {
-    /// Loopback only; port 0 takes a free one.
+    /// Loopback only as long as there is no token; port 0 takes a free one.
     pub listen: SocketAddr,
 }
 
 /// Where REST is served.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Rest {
-    /// Loopback only; port 0 takes a free one.
+    /// Loopback only as long as there is no token; port 0 takes a free one.
     pub listen: SocketAddr,
+    /// Names beside `localhost` that are answered to on a loopback address.
+    pub hosts: Vec<String>,
+}
+
+/// The certificates of both ports; no TLS where there is none.
+#[derive(Clone, Debug, PartialEq, Default, Deserialize, Serialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Tls {
+    /// PEM: the service's certificate, and those between it and its root.
+    pub certificate_file: Option<PathBuf>,
+    /// PEM: its private key.
+    pub key_file: Option<PathBuf>,
+    /// PEM: only clients with a certificate of one of these are let in.
+    pub client_ca_file: Option<PathBuf>,
+}
+
+/// Tokens that are not in the database.
+#[derive(Clone, Debug, PartialEq, Default, Deserialize, Serialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Access {
+    /// An admin's token for all networks; meant for the environment.
+    pub bootstrap_token: Option<Secret>,
+    /// A file with such a token and nothing else.
+    pub bootstrap_token_file: Option<PathBuf>,
 }
 
 /// The database.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Store {
     /// Its file; made where there is none.
@@ -54,7 +83,7 @@ pub struct Store {
 }
 
 /// How tours are planned.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Planning {
     /// Which solver plans.
@@ -76,7 +105,7 @@ pub struct Planning {
 }
 
 /// The trained policies.
-#[derive(Clone, Debug, PartialEq, Default, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Default, Deserialize, Serialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Policy {
     /// Folder with models that stand in place of those in the binary: `k_coverage.onnx`, `reward.onnx`,
@@ -85,7 +114,7 @@ pub struct Policy {
 }
 
 /// What bounds the edges.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Limits {
     /// Bytes of one message.
@@ -103,7 +132,7 @@ pub struct Limits {
 }
 
 /// How the service ends.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Lifecycle {
     /// Time for running calls and searches after the first signal.
@@ -111,7 +140,7 @@ pub struct Lifecycle {
 }
 
 /// What is logged, to standard error.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Log {
     /// How lines look.
@@ -121,7 +150,7 @@ pub struct Log {
 }
 
 /// How log lines look.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Format {
     /// For people.
@@ -142,7 +171,7 @@ impl Default for Grpc {
 
 impl Default for Rest {
     fn default() -> Self {
-        Self { listen: loopback(7480) }
+        Self { listen: loopback(7480), hosts: Vec::new() }
     }
 }
 

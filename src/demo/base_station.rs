@@ -3,12 +3,10 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use tonic::transport::Channel;
-
 use super::stage::Play;
 use super::world::Due;
 use crate::cli::Failure;
-use crate::cli::operator::{call, fresh_id, refused};
+use crate::cli::operator::{Service, call, fresh_id, refused};
 use crate::clock::plus;
 use crate::domain::{NetworkSpec, NewRequest};
 use crate::grpc::wire;
@@ -51,7 +49,7 @@ pub(super) async fn play(play: Arc<Play>) -> Result<(), Failure> {
 /// Submits what is due, over one stream.
 async fn submit(
     play: &Play,
-    client: &mut RequestServiceClient<Channel>,
+    client: &mut RequestServiceClient<Service>,
     due: Vec<Due>,
 ) -> Result<(), Failure> {
     let messages: Vec<SubmitRequest> =

@@ -3,12 +3,11 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use tonic::transport::Channel;
 use voltour_solver::gap::percent;
 
 use super::stage::Play;
 use crate::cli::Failure;
-use crate::cli::operator::{call, fresh_id, refused, unreadable, waiting};
+use crate::cli::operator::{Service, call, fresh_id, refused, unreadable, waiting};
 use crate::clock::plus;
 use crate::domain::{Announcement, ChargerId, Departure, NewVisit, Outcome, Stop, Tour};
 use crate::grpc::wire;
@@ -69,7 +68,7 @@ async fn announce(play: &Play, charger: &ChargerId) -> Result<Departure, Failure
 /// The tour of a departure; none where it was refused.
 async fn fetch(
     play: &Play,
-    client: &mut TourServiceClient<Channel>,
+    client: &mut TourServiceClient<Service>,
     departure: &Departure,
 ) -> Result<Option<Tour>, Failure> {
     let charger = &departure.announced.charger_id;
@@ -89,7 +88,7 @@ async fn fetch(
 
 async fn drive(
     play: &Play,
-    client: &mut TourServiceClient<Channel>,
+    client: &mut TourServiceClient<Service>,
     tour: Tour,
 ) -> Result<(), Failure> {
     let charger = &tour.charger_id;
@@ -122,7 +121,7 @@ async fn drive(
 }
 
 async fn report(
-    client: &mut TourServiceClient<Channel>,
+    client: &mut TourServiceClient<Service>,
     tour: &Tour,
     stop: &Stop,
 ) -> Result<(), Failure> {

@@ -6,14 +6,14 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::Duration;
 
-use tonic::transport::Channel;
-
 use super::network::draw;
 use super::tell::Teller;
 use super::world::World;
 use super::{base_station, charger};
+use crate::access::Secret;
 use crate::app::App;
-use crate::cli::operator::connect;
+use crate::cli::operator::{Remote, Service};
+use crate::cli::serve::not_started;
 use crate::cli::{Failure, say};
 use crate::clock::{Clock, ScaledClock};
 use crate::config::{Config, Span};
@@ -30,7 +30,7 @@ const SLACK: Duration = Duration::from_millis(500);
 /// What the players share.
 #[derive(Debug)]
 pub(super) struct Play {
-    pub channel: Channel,
+    pub channel: Service,
     pub clock: Arc<dyn Clock>,
     pub network: NetworkId,
     pub world: World,
@@ -64,18 +64,22 @@ pub async fn run(config: Option<Config>, departures: Option<u32>) -> Result<(), 
     // Removed with all that is in it when it is dropped, after the service has ended.
     let directory = tempfile::tempdir()
         .map_err(|error| Failure::other(format!("no temporary directory: {error}")))?;
+    if config.as_ref().is_some_and(|config| config.tls.certificate_file.is_some()) {
+        return Err(Failure::input("tls: the demonstration is played without it"));
+    }
     let config = adapted(config.unwrap_or_else(|| usual(directory.path())));
+    let token = config.bootstrap().map_err(|error| Failure { code: 2, lines: error.0 })?;
     let clock: Arc<dyn Clock> = Arc::new(ScaledClock::new(f64::from(FACTOR)));
     let lifecycle = Lifecycle::default();
     let failed = |error: &dyn std::error::Error| Failure::other(error.to_string());
     lifecycle.listen().map_err(|error| failed(&error))?;
     let app = App::start(&config, clock.clone(), lifecycle.clone()).await;
-    let app = app.map_err(|error| failed(&error))?;
-    say(format!("voltour ready grpc=http://{} rest=http://{}", app.grpc, app.rest));
+    let app = app.map_err(not_started)?;
+    say(app.ready());
     let (grpc, rest) = (app.grpc, app.rest);
     let service = tokio::spawn(app.run());
     let played = tokio::select! {
-        played = perform(clock, grpc, rest, departures) => played,
+        played = perform(clock, token, grpc, rest, departures) => played,
         () = lifecycle.soft.cancelled() => Ok(()),
     };
     lifecycle.soft.cancel();
@@ -85,6 +89,7 @@ pub async fn run(config: Option<Config>, departures: Option<u32>) -> Result<(), 
 
 async fn perform(
     clock: Arc<dyn Clock>,
+    token: Option<Secret>,
     grpc: SocketAddr,
     rest: SocketAddr,
     departures: Option<u32>,
@@ -95,7 +100,7 @@ async fn perform(
     let network = format!("demo-{}", began.as_second());
     let bad = |error: crate::domain::IdError| Failure::other(error.to_string());
     let play = Arc::new(Play {
-        channel: connect(&format!("http://{grpc}")).await?,
+        channel: Remote::plain(format!("http://{grpc}"), token).connect().await?,
         network: network.parse().map_err(bad)?,
         full_j: spec.sensors.iter().map(|s| (s.id.clone(), s.battery_j)).collect(),
         world,

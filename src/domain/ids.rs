@@ -88,6 +88,10 @@ text_id! {
     ClientId, plain, "must be 1 to 64 of A-Z a-z 0-9 . _ : -"
 }
 text_id! {
+    /// What an API token is called.
+    TokenName, plain, "must be 1 to 64 of A-Z a-z 0-9 . _ : -"
+}
+text_id! {
     /// A sensor: free text, to be escaped wherever it is shown.
     SensorId, free, "must have 1 to 128 bytes"
 }
@@ -140,4 +144,8 @@ uuid_id! {
 uuid_id! {
     /// A visit report.
     VisitId
+}
+uuid_id! {
+    /// An API token.
+    TokenId
 }

@@ -30,6 +30,12 @@ pub enum Refusal {
         /// The client's id.
         client_id: String,
     },
+    /// The caller did not say who it is, or nobody is known by that.
+    #[error("{0}")]
+    Unauthenticated(String),
+    /// The caller is known, and may not.
+    #[error("{0}")]
+    PermissionDenied(String),
     /// The thing's state does not allow it.
     #[error("{0}")]
     FailedPrecondition(String),

@@ -5,10 +5,12 @@ use std::pin::Pin;
 use futures_util::Stream;
 use tonic::{Request, Response, Status};
 
+use super::guard::{caller, guarded};
 use super::status::read_failed;
 use super::watch::{Followed, follow};
 use super::wire::{self, Fields, Path};
 use super::{Edge, page_token};
+use crate::access::Caller;
 use crate::domain::{self, Call, ChargerId, DepartureId, NetworkId, Refusal};
 use crate::proto::departure_service_server::DepartureService;
 use crate::proto::{
@@ -29,7 +31,10 @@ impl DepartureService for Edge {
         &self,
         call: Request<AnnounceRequest>,
     ) -> Result<Response<Departure>, Status> {
+        let caller = caller(call.extensions())?;
         let call = wire::announcement(call.into_inner())?;
+        caller.network(&call.content.network_id)?;
+        caller.drives(&call.content.charger_id)?;
         let departure = self.handle.announce(call).await?;
         Ok(Response::new(wire::departure_to_wire(departure)))
     }
@@ -38,18 +43,20 @@ impl DepartureService for Edge {
         &self,
         call: Request<CancelDepartureRequest>,
     ) -> Result<Response<Departure>, Status> {
+        let caller = caller(call.extensions())?;
         let call = cancel(call.into_inner())?;
+        if caller.is_restricted() {
+            self.departure_of(&caller, call.content.departure_id).await?;
+        }
         let departure = self.handle.cancel(call).await?;
         Ok(Response::new(wire::departure_to_wire(departure)))
     }
 
     async fn get(&self, call: Request<GetDepartureRequest>) -> Result<Response<Departure>, Status> {
+        let caller = caller(call.extensions())?;
         let mut fields = Fields::default();
         let id = fields.id(Path::ROOT.field("departure_id"), &call.into_inner().departure_id);
-        let id: DepartureId = fields.finish(id)?;
-        let departure = self.handle.reads().departure(id).await.map_err(read_failed)?;
-        let departure =
-            departure.ok_or(Refusal::NotFound { what: "departure", id: id.to_string() })?;
+        let departure = self.departure_of(&caller, fields.finish(id)?).await?;
         Ok(Response::new(wire::departure_to_wire(departure)))
     }
 
@@ -57,6 +64,7 @@ impl DepartureService for Edge {
         &self,
         call: Request<ListDeparturesRequest>,
     ) -> Result<Response<ListDeparturesResponse>, Status> {
+        let caller = caller(call.extensions())?;
         let call = call.into_inner();
         let mut fields = Fields::default();
         let at = Path::ROOT;
@@ -66,9 +74,11 @@ impl DepartureService for Edge {
         let states = fields.each(at.field("states"), call.states, wire::departure_state);
         let filter =
             network_id.zip(charger_id).zip(states).map(|((network_id, charger_id), states)| {
-                DepartureFilter { network_id, charger_id, states }
+                let within = caller.networks().clone();
+                DepartureFilter { within, network_id, charger_id, states }
             });
-        let (filter, page) = fields.finish(filter.zip(page))?;
+        let (mut filter, page) = fields.finish(filter.zip(page))?;
+        filter.charger_id = caller.among(filter.charger_id)?;
         let listed = self.handle.reads().departures(&filter, &page).await.map_err(read_failed)?;
         Ok(Response::new(ListDeparturesResponse {
             departures: listed.items.into_iter().map(wire::departure_to_wire).collect(),
@@ -80,16 +90,35 @@ impl DepartureService for Edge {
         &self,
         call: Request<WatchDeparturesRequest>,
     ) -> Result<Response<Self::WatchStream>, Status> {
+        let caller = caller(call.extensions())?;
         let call = call.into_inner();
         let mut fields = Fields::default();
         let network = fields.id(Path::ROOT.field("network_id"), &call.network_id);
         let charger = fields.optional_id(Path::ROOT.field("charger_id"), &call.charger_id);
         let (network, charger): (NetworkId, Option<ChargerId>) =
             fields.finish(network.zip(charger))?;
+        caller.network(&network)?;
+        let charger = caller.among(charger)?;
         let wanted = move |departure: &domain::Departure| {
             charger.as_ref().is_none_or(|id| *id == departure.announced.charger_id)
         };
-        Ok(Response::new(Box::pin(follow(self, network, wanted).await?)))
+        let changes = follow(self, network, wanted).await?;
+        Ok(Response::new(guarded(&self.gate, &caller, changes)))
+    }
+}
+
+impl Edge {
+    /// A departure that the caller may ask about.
+    async fn departure_of(
+        &self,
+        caller: &Caller,
+        id: DepartureId,
+    ) -> Result<domain::Departure, Refusal> {
+        let departure = self.handle.reads().departure(id).await.map_err(read_failed)?;
+        let seen = departure.filter(|departure| caller.sees(&departure.announced.network_id));
+        let departure = seen.ok_or(Refusal::NotFound { what: "departure", id: id.to_string() })?;
+        caller.drives(&departure.announced.charger_id)?;
+        Ok(departure)
     }
 }
 

@@ -6,6 +6,7 @@ use std::time::Duration;
 use tokio::sync::{OwnedSemaphorePermit, Semaphore};
 use tokio_util::sync::CancellationToken;
 
+use crate::access::Gate;
 use crate::domain::Refusal;
 use crate::scheduler::Handle;
 
@@ -30,6 +31,7 @@ pub struct Limits {
 #[derive(Clone, Debug)]
 pub struct Edge {
     pub(super) handle: Handle,
+    pub(super) gate: Gate,
     pub(super) limits: Limits,
     /// Cancelled when the service stops taking work: streams end.
     pub(super) stop: CancellationToken,
@@ -37,10 +39,10 @@ pub struct Edge {
 }
 
 impl Edge {
-    /// On the handle of a running scheduler.
-    pub fn new(handle: Handle, limits: Limits, stop: CancellationToken) -> Self {
+    /// On the handle of a running scheduler, behind the gate.
+    pub fn new(handle: Handle, gate: Gate, limits: Limits, stop: CancellationToken) -> Self {
         let streams = Arc::new(Semaphore::new(limits.streams));
-        Self { handle, limits, stop, streams }
+        Self { handle, gate, limits, stop, streams }
     }
 
     /// Room for one more stream, for as long as the permit lives.

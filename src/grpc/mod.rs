@@ -5,6 +5,7 @@
 mod deadline;
 mod departure;
 mod edge;
+mod guard;
 mod network;
 mod page_token;
 mod request;

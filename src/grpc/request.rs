@@ -5,6 +5,7 @@ use std::pin::Pin;
 use futures_util::Stream;
 use tonic::{Request, Response, Status, Streaming};
 
+use super::guard::{caller, guarded};
 use super::status::read_failed;
 use super::watch::{Followed, follow};
 use super::wire::{self, Fields, Path};
@@ -27,7 +28,9 @@ impl RequestService for Edge {
         &self,
         call: Request<SubmitRequest>,
     ) -> Result<Response<ChargingRequest>, Status> {
+        let caller = caller(call.extensions())?;
         let call = wire::new_request(call.into_inner())?;
+        caller.network(&call.content.network_id)?;
         let request = self.handle.submit(call).await?;
         Ok(Response::new(wire::request_to_wire(request)))
     }
@@ -36,16 +39,20 @@ impl RequestService for Edge {
         &self,
         call: Request<Streaming<SubmitRequest>>,
     ) -> Result<Response<Self::SubmitStreamStream>, Status> {
+        let caller = caller(call.extensions())?;
         let permit = self.stream_permit()?;
-        let answers = submit_stream::acknowledge(self.clone(), call.into_inner(), permit);
-        Ok(Response::new(Box::pin(answers)))
+        let (edge, items) = (self.clone(), call.into_inner());
+        let answers = submit_stream::acknowledge(edge, caller.clone(), items, permit);
+        Ok(Response::new(guarded(&self.gate, &caller, answers)))
     }
 
     async fn withdraw(
         &self,
         call: Request<WithdrawRequest>,
     ) -> Result<Response<ChargingRequest>, Status> {
+        let caller = caller(call.extensions())?;
         let call = withdraw(call.into_inner())?;
+        caller.network(&call.content.network_id)?;
         let request = self.handle.withdraw(call).await?;
         Ok(Response::new(wire::request_to_wire(request)))
     }
@@ -54,10 +61,12 @@ impl RequestService for Edge {
         &self,
         call: Request<GetRequestRequest>,
     ) -> Result<Response<ChargingRequest>, Status> {
+        let caller = caller(call.extensions())?;
         let mut fields = Fields::default();
         let id = fields.id(Path::ROOT.field("request_id"), &call.into_inner().request_id);
         let id: RequestId = fields.finish(id)?;
         let request = self.handle.reads().request(id).await.map_err(read_failed)?;
+        let request = request.filter(|request| caller.sees(&request.asked.network_id));
         let request = request.ok_or(Refusal::NotFound { what: "request", id: id.to_string() })?;
         Ok(Response::new(wire::request_to_wire(request)))
     }
@@ -66,6 +75,7 @@ impl RequestService for Edge {
         &self,
         call: Request<ListRequestsRequest>,
     ) -> Result<Response<ListRequestsResponse>, Status> {
+        let caller = caller(call.extensions())?;
         let call = call.into_inner();
         let mut fields = Fields::default();
         let at = Path::ROOT;
@@ -75,7 +85,8 @@ impl RequestService for Edge {
         let states = fields.each(at.field("states"), call.states, wire::request_state);
         let filter =
             network_id.zip(sensor_id).zip(states).map(|((network_id, sensor_id), states)| {
-                RequestFilter { network_id, states, sensor_id }
+                let within = caller.networks().clone();
+                RequestFilter { within, network_id, states, sensor_id }
             });
         let (filter, page) = fields.finish(filter.zip(page))?;
         let listed = self.handle.reads().requests(&filter, &page).await.map_err(read_failed)?;
@@ -89,10 +100,13 @@ impl RequestService for Edge {
         &self,
         call: Request<WatchRequestsRequest>,
     ) -> Result<Response<Self::WatchStream>, Status> {
+        let caller = caller(call.extensions())?;
         let mut fields = Fields::default();
         let id = fields.id(Path::ROOT.field("network_id"), &call.into_inner().network_id);
-        let changes = follow(self, fields.finish(id)?, |_: &domain::Request| true).await?;
-        Ok(Response::new(Box::pin(changes)))
+        let id = fields.finish(id)?;
+        caller.network(&id)?;
+        let changes = follow(self, id, |_: &domain::Request| true).await?;
+        Ok(Response::new(guarded(&self.gate, &caller, changes)))
     }
 }
 

@@ -2,13 +2,14 @@
 
 use std::time::Duration;
 
-use tokio::net::TcpListener;
 use tonic::server::NamedService;
 use tonic_health::ServingStatus;
 use tonic_health::server::HealthReporter;
+use tower_http::auth::AsyncRequireAuthorizationLayer;
 
 use super::Edge;
-use crate::listen;
+use super::guard::Guard;
+use crate::listen::{self, Counted};
 use crate::proto::DESCRIPTORS;
 use crate::proto::departure_service_server::DepartureServiceServer;
 use crate::proto::network_service_server::NetworkServiceServer;
@@ -39,12 +40,12 @@ pub enum ServerError {
 #[derive(Debug)]
 pub struct Server {
     edge: Edge,
-    listener: TcpListener,
+    listener: Counted,
 }
 
 impl Server {
     /// On a bound listener.
-    pub fn new(edge: Edge, listener: TcpListener) -> Self {
+    pub fn new(edge: Edge, listener: Counted) -> Self {
         Self { edge, listener }
     }
 
@@ -79,6 +80,7 @@ impl Server {
             .http2_max_header_list_size(HEADER_BYTES)
             .http2_keepalive_interval(Some(KEEPALIVE))
             .http2_keepalive_timeout(Some(KEEPALIVE_ANSWER))
+            .layer(AsyncRequireAuthorizationLayer::new(Guard(edge.gate.clone())))
             .add_service(health)
             .add_service(reflection().build_v1()?)
             // What many clients still ask, Python's among them.
@@ -87,7 +89,7 @@ impl Server {
             .add_service(limited!(RequestServiceServer))
             .add_service(limited!(DepartureServiceServer))
             .add_service(limited!(TourServiceServer))
-            .serve_with_incoming_shutdown(listen::incoming(listener, limits.connections), stopping)
+            .serve_with_incoming_shutdown(listen::incoming(listener), stopping)
             .await?;
         Ok(())
     }

@@ -62,6 +62,8 @@ fn code(refusal: &Refusal) -> Code {
         Refusal::Invalid(_) => Code::InvalidArgument,
         Refusal::NotFound { .. } => Code::NotFound,
         Refusal::AlreadyExists { .. } => Code::AlreadyExists,
+        Refusal::Unauthenticated(_) => Code::Unauthenticated,
+        Refusal::PermissionDenied(_) => Code::PermissionDenied,
         Refusal::FailedPrecondition(_) => Code::FailedPrecondition,
         Refusal::Aborted(_) => Code::Aborted,
         Refusal::DeadlineExceeded(_) => Code::DeadlineExceeded,

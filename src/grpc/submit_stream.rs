@@ -8,6 +8,7 @@ use tonic::{Status, Streaming};
 use super::Edge;
 use super::status::stopping;
 use super::wire;
+use crate::access::Caller;
 use crate::proto::acknowledgement::Result as Outcome;
 use crate::proto::{Acknowledgement, SubmitRequest};
 use crate::scheduler::Handle;
@@ -20,6 +21,7 @@ use crate::scheduler::Handle;
 /// drops what is under way; ending the input drains it.
 pub(super) fn acknowledge(
     edge: Edge,
+    caller: Caller,
     items: Streaming<SubmitRequest>,
     permit: OwnedSemaphorePermit,
 ) -> impl Stream<Item = Result<Acknowledgement, Status>> + Send {
@@ -29,7 +31,7 @@ pub(super) fn acknowledge(
     items
         .take_until(stop.cancelled_owned())
         .enumerate()
-        .then(move |(position, item)| queue(handle.clone(), position as u64, item))
+        .then(move |(position, item)| queue(handle.clone(), caller.clone(), position as u64, item))
         .buffered(limits.unacknowledged)
         .chain(last.filter_map(std::future::ready))
         .inspect(move |_| {
@@ -41,6 +43,7 @@ pub(super) fn acknowledge(
 /// Queues an item; what it returns is its acknowledgement.
 async fn queue(
     handle: Handle,
+    caller: Caller,
     position: u64,
     item: Result<SubmitRequest, Status>,
 ) -> impl Future<Output = Result<Acknowledgement, Status>> + Send {
@@ -49,7 +52,10 @@ async fn queue(
             // Names the item also where it is refused, with no more of it than an id may have.
             let client_id = item.client_id.chars().take(64).collect();
             let answer = match wire::new_request(item) {
-                Ok(call) => handle.queue_submit(call).await,
+                Ok(call) => match caller.network(&call.content.network_id) {
+                    Ok(()) => handle.queue_submit(call).await,
+                    Err(refusal) => Err(refusal),
+                },
                 Err(refusal) => Err(refusal),
             };
             Ok((client_id, answer))

@@ -11,8 +11,10 @@ use tonic::transport::{Channel, Endpoint};
 use tonic::{Code, Request};
 
 use super::{Edge, Server, ServerError, violations};
+use crate::access::Gate;
 use crate::clock::SystemClock;
 use crate::config::Config;
+use crate::listen::Counted;
 use crate::metrics::Metrics;
 use crate::policy::{Policies, Shelf};
 use crate::proto::acknowledgement::Result as Outcome;
@@ -53,8 +55,9 @@ impl Service {
         .unwrap();
         let listener = TcpListener::bind("127.0.0.1:0").await.unwrap();
         let address = format!("http://{}", listener.local_addr().unwrap());
-        let edge = Edge::new(handle, config.grpc_limits(), stop.clone());
-        let server = tokio::spawn(Server::new(edge, listener).run());
+        let gate = Gate::open(handle.reads().clone(), None).await.unwrap();
+        let edge = Edge::new(handle, gate, config.grpc_limits(), stop.clone());
+        let server = tokio::spawn(Server::new(edge, Counted::new(listener, 100, None)).run());
         let channel = Endpoint::from_shared(address).unwrap().connect().await.unwrap();
         let service = Self { channel, stop, scheduler, server, running };
         NetworkServiceClient::new(service.channel.clone()).put(network(700)).await.unwrap();

@@ -1,5 +1,5 @@
-//! What every answer has: a time limit, a trace, headers for browsers, and a problem document where it
-//! is an error, also where no handler was reached.
+//! What every answer has: a time limit, a trace, gzip for those who take it, headers for browsers, and a
+//! problem document where it is an error, also where no handler was reached.
 
 use std::any::Any;
 use std::time::Duration;
@@ -7,13 +7,14 @@ use std::time::Duration;
 use axum::Router;
 use axum::extract::Request;
 use axum::http::header::{
-    ALLOW, CACHE_CONTROL, CONTENT_SECURITY_POLICY, CONTENT_TYPE, REFERRER_POLICY,
-    X_CONTENT_TYPE_OPTIONS,
+    ALLOW, CACHE_CONTROL, CONTENT_ENCODING, CONTENT_SECURITY_POLICY, CONTENT_TYPE, ETAG,
+    REFERRER_POLICY, X_CONTENT_TYPE_OPTIONS,
 };
 use axum::http::{HeaderMap, HeaderName, HeaderValue, StatusCode};
 use axum::middleware::map_response;
 use axum::response::{IntoResponse, Response};
 use tower_http::catch_panic::CatchPanicLayer;
+use tower_http::compression::CompressionLayer;
 use tower_http::timeout::TimeoutLayer;
 use tower_http::trace::TraceLayer;
 
@@ -34,6 +35,7 @@ pub(super) fn dress(routes: Router) -> Router {
         .fallback(unknown)
         .layer(CatchPanicLayer::custom(defect))
         .layer(TimeoutLayer::with_status_code(StatusCode::GATEWAY_TIMEOUT, LONGEST))
+        .layer(CompressionLayer::new())
         .layer(map_response(finish))
         .layer(trace)
 }
@@ -61,18 +63,35 @@ async fn finish(response: Response) -> Response {
     default(CONTENT_SECURITY_POLICY, "default-src 'none'; frame-ancestors 'none'");
     // What is stored may change at any time, but for plans, which say so themselves.
     default(CACHE_CONTROL, if status.is_success() { "no-cache" } else { "no-store" });
+    if headers.contains_key(CONTENT_ENCODING) {
+        weaken(headers);
+    }
     response
+}
+
+/// A strong tag stands for the very bytes, and these are others than without compression (RFC 9110, 8.8.3.3).
+fn weaken(headers: &mut HeaderMap) {
+    let strong = headers.get(ETAG).and_then(|tag| tag.to_str().ok());
+    let weak = strong.filter(|tag| tag.starts_with('"')).map(|tag| format!("W/{tag}"));
+    if let Some(Ok(weak)) = weak.as_deref().map(HeaderValue::from_str) {
+        headers.insert(ETAG, weak);
+    }
 }
 
 /// An error that the library made gets a problem document of its status for a body.
 fn as_problem(response: Response) -> Response {
     let status = response.status();
     let is_error = status.is_client_error() || status.is_server_error();
-    if !is_error || is_problem(response.headers()) {
+    // The layer that compresses leaves the answer of the handler below its 406.
+    let is_told = is_problem(response.headers()) && status != StatusCode::NOT_ACCEPTABLE;
+    if !is_error || is_told {
         return response;
     }
     let problem = match status {
         StatusCode::METHOD_NOT_ALLOWED => Problem::new(status).detail("only GET and HEAD"),
+        StatusCode::NOT_ACCEPTABLE => {
+            Problem::new(status).detail("Accept-Encoding: must leave gzip or identity")
+        }
         StatusCode::GATEWAY_TIMEOUT => Problem::new(status).detail("this took too long; try again"),
         status => Problem::new(status),
     };
@@ -91,6 +110,7 @@ fn is_problem(headers: &HeaderMap) -> bool {
 mod tests {
     use axum::body::Body;
     use axum::http::Method;
+    use axum::http::header::{ACCEPT_ENCODING, VARY};
     use axum::routing::get;
     use tower::ServiceExt;
 
@@ -102,8 +122,21 @@ mod tests {
     }
 
     async fn ask(method: Method, path: &str) -> (Response, serde_json::Value) {
-        let routes = Router::new().route("/ok", get(|| async { "ok" })).route("/bad", get(broken));
-        let request = Request::builder().method(method).uri(path).body(Body::empty()).unwrap();
+        ask_encoded(method, path, "identity").await
+    }
+
+    async fn ask_encoded(
+        method: Method,
+        path: &str,
+        encoding: &str,
+    ) -> (Response, serde_json::Value) {
+        let long = || async { ([(ETAG, "\"t\"")], "all work and no play ".repeat(100)) };
+        let routes = Router::new()
+            .route("/ok", get(|| async { "ok" }))
+            .route("/bad", get(broken))
+            .route("/long", get(long));
+        let request = Request::builder().method(method).uri(path);
+        let request = request.header(ACCEPT_ENCODING, encoding).body(Body::empty()).unwrap();
         let response = dress(routes).oneshot(request).await.unwrap();
         let (parts, body) = response.into_parts();
         let body = axum::body::to_bytes(body, 10_000).await.unwrap();
@@ -134,5 +167,21 @@ mod tests {
         assert_eq!(response.headers()[X_CONTENT_TYPE_OPTIONS], "nosniff");
         assert_eq!(response.headers()[CACHE_CONTROL], "no-cache");
         assert!(response.headers().contains_key(CONTENT_SECURITY_POLICY));
+    }
+    #[tokio::test]
+    async fn who_takes_gzip_gets_it_under_a_weak_tag() {
+        let (whole, _) = ask_encoded(Method::GET, "/long", "identity").await;
+        assert_eq!(
+            (whole.headers()[ETAG].as_bytes(), whole.status().as_u16()),
+            (&b"\"t\""[..], 200)
+        );
+        assert!(!whole.headers().contains_key(CONTENT_ENCODING));
+        let (packed, _) = ask_encoded(Method::GET, "/long", "br, gzip;q=0.5").await;
+        assert_eq!(packed.headers()[CONTENT_ENCODING], "gzip");
+        assert_eq!(packed.headers()[ETAG], "W/\"t\"");
+        assert_eq!(packed.headers()[VARY], "accept-encoding");
+        let (refused, problem) = ask_encoded(Method::GET, "/long", "identity;q=0, br").await;
+        assert_eq!((refused.status().as_u16(), &problem["status"]), (406, &406.into()));
+        assert_eq!(refused.headers()[CONTENT_TYPE], MEDIA_TYPE);
     }
 }

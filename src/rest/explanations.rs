@@ -10,10 +10,12 @@ use voltour_solver::explain::Explanation;
 
 use super::RestState;
 use super::accept::prefers_text;
-use super::immutable::{Form, is_known, not_modified, whole};
+use super::immutable::{Form, known, not_modified, whole};
 use super::lists::id;
+use super::plans::seen;
 use super::problem::Problem;
 use super::query::{Named, Params};
+use crate::access::Caller;
 use crate::domain::PlanId;
 use crate::store::Explained;
 
@@ -33,7 +35,7 @@ impl Named for Shown {
 /// what would make the tour better. It is made after the plan and stored with it.
 #[utoipa::path(get, path = "/v1/plans/{id}/explanation", tag = "plans", params(
     ("id" = uuid::Uuid, Path, description = "A plan's id"),
-    ("format" = Option<String>, Query,
+    ("format" = Option<String>, Query, pattern = "^(json|text)$",
      description = "`json` or `text`; as `Accept` says where it is left out, else JSON"),
     ("If-None-Match" = Option<String>, Header, description = "Tags that the caller has"),
 ), responses(
@@ -48,6 +50,7 @@ impl Named for Shown {
 ))]
 pub(super) async fn explanation(
     State(state): State<RestState>,
+    caller: Caller,
     name: Result<Path<String>, PathRejection>,
     headers: HeaderMap,
     uri: Uri,
@@ -56,6 +59,7 @@ pub(super) async fn explanation(
     let shown = params.named::<Shown>("format");
     params.finish()?;
     let plan_id: PlanId = id("plan", &name.map(|Path(name)| name).unwrap_or_default())?;
+    seen(&state, &caller, plan_id).await?;
     let stored = state.reads.explanation(plan_id).await?;
     let document = match stored.ok_or_else(|| Problem::not_found("plan", plan_id))? {
         Explained::Document(document) => document,
@@ -68,8 +72,8 @@ pub(super) async fn explanation(
         _ => Form::Explanation,
     };
     let tag = form.tag(&plan_id.to_string());
-    if is_known(&headers, &tag) {
-        return Ok(not_modified(form, &tag));
+    if let Some(tag) = known(&headers, &tag) {
+        return Ok(not_modified(form, tag));
     }
     Ok(match form {
         Form::ExplanationText => whole(form, &tag, text(plan_id, &document)?),

@@ -18,6 +18,7 @@ pub(super) enum Form {
     Plan,
     Scenario,
     Svg,
+    GeoJson,
     Explanation,
     ExplanationText,
 }
@@ -28,6 +29,7 @@ impl Form {
             Self::Plan | Self::Scenario | Self::Explanation => "application/json",
             Self::ExplanationText => "text/plain; charset=utf-8",
             Self::Svg => "image/svg+xml",
+            Self::GeoJson => "application/geo+json",
         }
     }
 
@@ -37,20 +39,22 @@ impl Form {
             Self::Plan => format!("\"{id}\""),
             Self::Scenario => format!("\"{id}-scenario\""),
             Self::Svg => format!("\"{id}-svg-{VERSION}\""),
+            Self::GeoJson => format!("\"{id}-geojson-{VERSION}\""),
             Self::Explanation => format!("\"{id}-explanation\""),
             Self::ExplanationText => format!("\"{id}-explanation-text-{VERSION}\""),
         }
     }
 }
 
-/// Whether the caller has what bears this tag (RFC 9110, 13.1.2: weak comparison).
-pub(super) fn is_known(headers: &HeaderMap, tag: &str) -> bool {
+/// The tag as the caller has it, where it has what bears this tag (RFC 9110, 13.1.2: weak comparison).
+pub(super) fn known<'a>(headers: &'a HeaderMap, tag: &'a str) -> Option<&'a str> {
     let lists = headers.get_all(IF_NONE_MATCH).iter().filter_map(|list| list.to_str().ok());
     let mut tags = lists.flat_map(|list| list.split(',')).map(str::trim);
-    tags.any(|known| known == "*" || known.strip_prefix("W/").unwrap_or(known) == tag)
+    let same = |known: &str| known == "*" || known.strip_prefix("W/").unwrap_or(known) == tag;
+    tags.find(|known| same(known)).map(|known| if known == "*" { tag } else { known })
 }
 
-/// The answer that says: what you have is still right.
+/// The answer that says: what you have under this tag is still right.
 pub(super) fn not_modified(form: Form, tag: &str) -> Response {
     let mut response = Response::new(Body::empty());
     *response.status_mut() = StatusCode::NOT_MODIFIED;
@@ -76,7 +80,7 @@ fn set(response: &mut Response, form: Form, tag: &str) {
         Form::Svg => set(CONTENT_SECURITY_POLICY, PICTURE_POLICY),
         // One address for both.
         Form::Explanation | Form::ExplanationText => set(VARY, "accept"),
-        Form::Plan | Form::Scenario => {}
+        Form::Plan | Form::Scenario | Form::GeoJson => {}
     }
     // A tag is made of an id and a version: always a header value.
     if let Ok(tag) = HeaderValue::from_str(tag) {
@@ -92,20 +96,26 @@ mod tests {
 
     fn knows(list: &'static str) -> bool {
         let headers = HeaderMap::from_iter([(IF_NONE_MATCH, HeaderValue::from_static(list))]);
-        is_known(&headers, "\"a-b\"")
+        known(&headers, "\"a-b\"").is_some()
     }
 
     #[test]
     fn tags_are_compared_as_the_standard_says() {
         assert!(knows("\"a-b\"") && knows("*") && knows("W/\"a-b\"") && knows("\"x\" , \"a-b\""));
         assert!(!knows("a-b") && !knows("\"a-b-svg\"") && !knows(""));
-        assert!(!is_known(&HeaderMap::new(), "\"a-b\""));
+        assert_eq!(known(&HeaderMap::new(), "\"a-b\""), None);
+        // Weak for a compressed copy; a cache finds it by the tag that it keeps.
+        let weak =
+            HeaderMap::from_iter([(IF_NONE_MATCH, HeaderValue::from_static("\"x\", W/\"t\""))]);
+        assert_eq!(known(&weak, "\"t\""), Some("W/\"t\""));
+        let any = HeaderMap::from_iter([(IF_NONE_MATCH, HeaderValue::from_static("*"))]);
+        assert_eq!(known(&any, "\"t\""), Some("\"t\""));
     }
 
     #[test]
     fn every_form_has_a_tag_of_its_own() {
-        use Form::{Explanation, ExplanationText, Plan, Scenario, Svg};
-        let forms = [Plan, Scenario, Svg, Explanation, ExplanationText];
+        use Form::{Explanation, ExplanationText, GeoJson, Plan, Scenario, Svg};
+        let forms = [Plan, Scenario, Svg, GeoJson, Explanation, ExplanationText];
         let tags = HashSet::from(forms.map(|form| form.tag("id")));
         assert_eq!(tags.len(), forms.len());
     }

@@ -15,6 +15,7 @@ use super::view::{
     Departure, DeparturePage, DepartureState, Network, NetworkPage, Request, RequestPage,
     RequestState,
 };
+use crate::access::Caller;
 use crate::domain::{DepartureId, NetworkId, RequestId};
 use crate::store::{DepartureFilter, RequestFilter};
 
@@ -33,8 +34,10 @@ fn in_path<T: FromStr<Err: Display>>(what: &str, path: Id, uri: &Uri) -> Result<
 
 /// Networks by id, without their specs.
 #[utoipa::path(get, path = "/v1/networks", tag = "networks", params(
-    ("limit" = Option<u32>, Query, description = "1 to 500; 50 where it is left out"),
-    ("cursor" = Option<String>, Query, description = "`next_cursor` of the page before"),
+    ("limit" = Option<u32>, Query, minimum = 1, maximum = 500,
+     description = "1 to 500; 50 where it is left out"),
+    ("cursor" = Option<String>, Query, max_length = 128,
+     description = "`next_cursor` of the page before; opaque"),
 ), responses(
     (status = 200, description = "A page", body = NetworkPage),
     (status = 400, description = "Bad parameters", body = Problem,
@@ -42,17 +45,19 @@ fn in_path<T: FromStr<Err: Display>>(what: &str, path: Id, uri: &Uri) -> Result<
 ))]
 pub(super) async fn networks(
     State(state): State<RestState>,
+    caller: Caller,
     uri: Uri,
 ) -> Result<Json<NetworkPage>, Problem> {
     let mut params = Params::of(&uri)?;
     let page = params.page::<NetworkId>();
     params.finish()?;
-    Ok(Json(state.reads.networks(&page).await?.into()))
+    Ok(Json(state.reads.networks(caller.networks(), &page).await?.into()))
 }
 
 /// The present version of a network, with its spec.
 #[utoipa::path(get, path = "/v1/networks/{id}", tag = "networks", params(
-    ("id" = String, Path, description = "A network's id"),
+    ("id" = String, Path, pattern = "^[A-Za-z0-9._:-]{1,64}$",
+     description = "A network's id"),
 ), responses(
     (status = 200, description = "The network", body = Network),
     (status = 404, description = "There is no such network", body = Problem,
@@ -60,21 +65,25 @@ pub(super) async fn networks(
 ))]
 pub(super) async fn network(
     State(state): State<RestState>,
+    caller: Caller,
     path: Id,
     uri: Uri,
 ) -> Result<Json<Network>, Problem> {
     let id: NetworkId = in_path("network", path, &uri)?;
-    let network = state.reads.network(&id).await?;
+    let network = state.reads.network(&id).await?.filter(|_| caller.sees(&id));
     Ok(Json(network.ok_or_else(|| Problem::not_found("network", id))?.into()))
 }
 
 /// Requests, newest first.
 #[utoipa::path(get, path = "/v1/requests", tag = "requests", params(
-    ("network" = Option<String>, Query, description = "Of this network"),
+    ("network" = Option<String>, Query, pattern = "^[A-Za-z0-9._:-]{1,64}$",
+     description = "Of this network"),
     ("sensor" = Option<String>, Query, description = "Of this sensor"),
     ("state" = Option<Vec<RequestState>>, Query, description = "In one of these states"),
-    ("limit" = Option<u32>, Query, description = "1 to 500; 50 where it is left out"),
-    ("cursor" = Option<String>, Query, description = "`next_cursor` of the page before"),
+    ("limit" = Option<u32>, Query, minimum = 1, maximum = 500,
+     description = "1 to 500; 50 where it is left out"),
+    ("cursor" = Option<String>, Query, max_length = 128,
+     description = "`next_cursor` of the page before; opaque"),
 ), responses(
     (status = 200, description = "A page", body = RequestPage),
     (status = 400, description = "Bad parameters", body = Problem,
@@ -82,10 +91,12 @@ pub(super) async fn network(
 ))]
 pub(super) async fn requests(
     State(state): State<RestState>,
+    caller: Caller,
     uri: Uri,
 ) -> Result<Json<RequestPage>, Problem> {
     let mut params = Params::of(&uri)?;
     let filter = RequestFilter {
+        within: caller.networks().clone(),
         network_id: params.one("network"),
         states: params.several("state"),
         sensor_id: params.one("sensor"),
@@ -105,21 +116,27 @@ pub(super) async fn requests(
 ))]
 pub(super) async fn request(
     State(state): State<RestState>,
+    caller: Caller,
     path: Id,
     uri: Uri,
 ) -> Result<Json<Request>, Problem> {
     let id: RequestId = in_path("request", path, &uri)?;
     let request = state.reads.request(id).await?;
+    let request = request.filter(|request| caller.sees(&request.asked.network_id));
     Ok(Json(request.ok_or_else(|| Problem::not_found("request", id))?.into()))
 }
 
 /// Departures, newest first.
 #[utoipa::path(get, path = "/v1/departures", tag = "departures", params(
-    ("network" = Option<String>, Query, description = "Of this network"),
-    ("charger" = Option<String>, Query, description = "Of this charger"),
+    ("network" = Option<String>, Query, pattern = "^[A-Za-z0-9._:-]{1,64}$",
+     description = "Of this network"),
+    ("charger" = Option<String>, Query, pattern = "^[A-Za-z0-9._:-]{1,64}$",
+     description = "Of this charger"),
     ("state" = Option<Vec<DepartureState>>, Query, description = "In one of these states"),
-    ("limit" = Option<u32>, Query, description = "1 to 500; 50 where it is left out"),
-    ("cursor" = Option<String>, Query, description = "`next_cursor` of the page before"),
+    ("limit" = Option<u32>, Query, minimum = 1, maximum = 500,
+     description = "1 to 500; 50 where it is left out"),
+    ("cursor" = Option<String>, Query, max_length = 128,
+     description = "`next_cursor` of the page before; opaque"),
 ), responses(
     (status = 200, description = "A page", body = DeparturePage),
     (status = 400, description = "Bad parameters", body = Problem,
@@ -127,10 +144,12 @@ pub(super) async fn request(
 ))]
 pub(super) async fn departures(
     State(state): State<RestState>,
+    caller: Caller,
     uri: Uri,
 ) -> Result<Json<DeparturePage>, Problem> {
     let mut params = Params::of(&uri)?;
     let filter = DepartureFilter {
+        within: caller.networks().clone(),
         network_id: params.one("network"),
         charger_id: params.one("charger"),
         states: params.several("state"),
@@ -150,10 +169,12 @@ pub(super) async fn departures(
 ))]
 pub(super) async fn departure(
     State(state): State<RestState>,
+    caller: Caller,
     path: Id,
     uri: Uri,
 ) -> Result<Json<Departure>, Problem> {
     let id: DepartureId = in_path("departure", path, &uri)?;
     let departure = state.reads.departure(id).await?;
+    let departure = departure.filter(|departure| caller.sees(&departure.announced.network_id));
     Ok(Json(departure.ok_or_else(|| Problem::not_found("departure", id))?.into()))
 }

@@ -2,22 +2,29 @@
 //! problem document (RFC 9457), logged once if it is the service's own.
 
 mod accept;
+mod described;
+mod docs;
 mod dress;
 mod explanations;
+mod export;
+mod guard;
 mod health;
 mod immutable;
 mod lists;
 mod metrics;
 mod openapi;
+mod plan_forms;
 mod plans;
 mod problem;
 mod query;
 mod router;
+mod routes;
 mod state;
 mod view;
 
 #[cfg(test)]
 mod tests;
 
+pub use guard::Guard;
 pub use router::router;
 pub use state::RestState;

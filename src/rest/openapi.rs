@@ -6,12 +6,13 @@ use axum::body::Body;
 use axum::http::header::CONTENT_TYPE;
 use axum::http::{HeaderValue, Uri};
 use axum::response::Response;
-use utoipa::OpenApi;
+use utoipa::{Modify, OpenApi, openapi};
 
+use super::described::{Guarded, problem};
 use super::problem::Problem;
 use super::query::Params;
 use super::view::PlanStatus;
-use super::{explanations, health, lists, metrics, plans};
+use super::{explanations, export, health, lists, metrics, plan_forms, plans};
 
 #[derive(OpenApi)]
 #[openapi(
@@ -29,16 +30,44 @@ use super::{explanations, health, lists, metrics, plans};
         lists::departures,
         lists::departure,
         plans::plans,
-        plans::plan,
+        export::plans,
+        plan_forms::plan,
+        plan_forms::picture,
+        plan_forms::map,
         plans::scenario,
         explanations::explanation,
         metrics::metrics,
         health::healthz,
         health::readyz,
     ),
-    components(schemas(PlanStatus))
+    components(schemas(PlanStatus)),
+    modifiers(&Guarded, &Refusals)
 )]
 struct Api;
+
+/// What any operation may answer, whatever it is.
+const REFUSALS: [(&str, &str); 5] = [
+    ("400", "Bad parameters"),
+    ("406", "Neither gzip nor the plain answer is acceptable"),
+    ("500", "The service failed; its log says why"),
+    ("503", "Not now"),
+    ("504", "It took too long"),
+];
+
+/// Writes [`REFUSALS`] to every operation, beside what it says itself.
+struct Refusals;
+
+impl Modify for Refusals {
+    fn modify(&self, api: &mut openapi::OpenApi) {
+        let operations = api.paths.paths.values_mut().filter_map(|path| path.get.as_mut());
+        for operation in operations {
+            for (status, text) in REFUSALS {
+                let responses = &mut operation.responses.responses;
+                responses.entry(status.to_owned()).or_insert_with(|| problem(text).into());
+            }
+        }
+    }
+}
 
 static DOCUMENT: LazyLock<Result<String, serde_json::Error>> =
     LazyLock::new(|| Api::openapi().to_pretty_json());
@@ -54,6 +83,11 @@ pub(super) async fn document(uri: Uri) -> Result<Response, Problem> {
 }
 
 #[cfg(test)]
+pub(super) fn api() -> utoipa::openapi::OpenApi {
+    Api::openapi()
+}
+
+#[cfg(test)]
 mod tests {
     use super::*;
 
@@ -64,6 +98,35 @@ mod tests {
         for rest in text.split("\"#/components/schemas/").skip(1) {
             let name = rest.split('"').next().unwrap();
             assert!(document["components"]["schemas"].get(name).is_some(), "{name}");
+        }
+    }
+
+    /// `just openapi` writes the file again.
+    #[test]
+    fn the_checked_in_document_is_this_one() {
+        let text = Api::openapi().to_pretty_json().unwrap() + "\n";
+        let file = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/openapi.json");
+        if std::env::var_os("VOLTOUR_WRITE_OPENAPI").is_some() {
+            std::fs::write(file, &text).unwrap();
+        }
+        let checked_in = std::fs::read_to_string(file).unwrap_or_default();
+        let differs = text.lines().zip(checked_in.lines()).find(|(made, read)| made != read);
+        assert_eq!(
+            differs, None,
+            "made from the handlers, docs/openapi.json; `just openapi` writes it"
+        );
+        assert_eq!(text.lines().count(), checked_in.lines().count(), "`just openapi` writes it");
+    }
+
+    #[test]
+    fn every_operation_has_a_name_of_its_own_and_tells_its_refusals() {
+        let mut names = std::collections::HashSet::new();
+        for (path, item) in Api::openapi().paths.paths {
+            let operation = item.get.unwrap();
+            assert!(names.insert(operation.operation_id), "{path}");
+            for (status, _) in REFUSALS {
+                assert!(operation.responses.responses.contains_key(status), "{path} {status}");
+            }
         }
     }
 
@@ -83,7 +146,10 @@ mod tests {
                 "/v1/networks",
                 "/v1/networks/{id}",
                 "/v1/plans",
+                "/v1/plans.csv",
                 "/v1/plans/{id}",
+                "/v1/plans/{id}.geojson",
+                "/v1/plans/{id}.svg",
                 "/v1/plans/{id}/explanation",
                 "/v1/plans/{id}/scenario",
                 "/v1/requests",

@@ -1,14 +1,24 @@
 //! The routes.
 
 use axum::Router;
+use axum::middleware::from_fn_with_state;
 use axum::routing::get;
 
 use super::dress::dress;
-use super::{RestState, explanations, health, lists, metrics, openapi, plans};
+use super::guard::{Guard, guard};
+use super::routes::Routes;
+use super::{
+    RestState, docs, explanations, export, health, lists, metrics, openapi, plan_forms, plans,
+};
 
 /// Every route of the REST edge, with its layers.
-pub fn router(state: RestState) -> Router {
-    let routes = Router::new()
+pub fn router(state: RestState, behind: Guard) -> Router {
+    let (routes, _) = routes().finish();
+    dress(routes.with_state(state).layer(from_fn_with_state(behind, guard)))
+}
+
+fn routes() -> Routes<RestState> {
+    Routes::new()
         .route("/v1/networks", get(lists::networks))
         .route("/v1/networks/{id}", get(lists::network))
         .route("/v1/requests", get(lists::requests))
@@ -16,14 +26,34 @@ pub fn router(state: RestState) -> Router {
         .route("/v1/departures", get(lists::departures))
         .route("/v1/departures/{id}", get(lists::departure))
         .route("/v1/plans", get(plans::plans))
-        // One segment holds no parameter with a suffix: the handler splits `{id}` and `{id}.svg`.
-        .route("/v1/plans/{id}", get(plans::plan))
+        .route("/v1/plans.csv", get(export::plans))
+        // One segment holds no parameter with a suffix: the handler tells `{id}`, `{id}.svg` and `{id}.geojson`.
+        .route("/v1/plans/{id}", get(plan_forms::by_name))
         .route("/v1/plans/{id}/scenario", get(plans::scenario))
         .route("/v1/plans/{id}/explanation", get(explanations::explanation))
         .route("/openapi.json", get(openapi::document))
+        .route("/docs", get(docs::to_page))
+        .route("/docs/", get(docs::page))
+        .route("/docs/{file}", get(docs::file))
         .route("/metrics", get(metrics::metrics))
         .route("/healthz", get(health::healthz))
         .route("/readyz", get(health::readyz))
-        .with_state(state);
-    dress(routes)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::routes;
+    use crate::access::table;
+
+    #[test]
+    fn every_route_has_an_entry_in_the_access_table_and_every_entry_a_route() {
+        let (_, paths) = routes().finish();
+        for path in &paths {
+            assert!(table::rest(path).is_some(), "{path} has no entry: nobody can call it");
+        }
+        for (entry, _) in table::REST {
+            assert!(paths.contains(entry), "{entry} is no route");
+        }
+        assert_eq!(paths.len(), table::REST.len());
+    }
 }

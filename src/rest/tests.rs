@@ -3,8 +3,9 @@
 use std::time::Duration;
 
 use axum::body::Body;
-use axum::http::header::{CACHE_CONTROL, CONTENT_TYPE, ETAG, IF_NONE_MATCH};
+use axum::http::header::{ACCEPT_ENCODING, CACHE_CONTROL, CONTENT_TYPE, ETAG, IF_NONE_MATCH};
 use axum::http::{HeaderMap, Request, StatusCode};
+use futures_util::StreamExt;
 use serde_json::{Value, json};
 use tokio_util::sync::CancellationToken;
 use tower::ServiceExt;
@@ -12,11 +13,12 @@ use voltour_solver::plan::Status;
 use voltour_solver::scenario::Scenario;
 use voltour_solver::solvers::plan_from_order;
 
-use super::{RestState, router};
+use super::{Guard, RestState, router};
+use crate::access::Gate;
 use crate::clock::plus;
 use crate::metrics::Metrics;
 use crate::store::fixture::Bench;
-use crate::store::{NewPlan, StorePlan, pack};
+use crate::store::{Listed, NewPlan, PlanFilter, StorePlan, pack};
 
 /// A service's database and its REST edge.
 struct Edge {
@@ -53,9 +55,11 @@ impl Edge {
     }
 
     async fn ask(&self, request: Request<Body>) -> Answer {
-        let response = router(self.state.clone()).oneshot(request).await.unwrap();
+        let gate = Gate::open(self.bench.store.reads.clone(), None).await.unwrap();
+        let guard = Guard::new(gate, false, &[]);
+        let response = router(self.state.clone(), guard).oneshot(request).await.unwrap();
         let (parts, body) = response.into_parts();
-        let body = axum::body::to_bytes(body, 1 << 20).await.unwrap().to_vec();
+        let body = axum::body::to_bytes(body, 1 << 22).await.unwrap().to_vec();
         Answer { status: parts.status, headers: parts.headers, body }
     }
 
@@ -162,6 +166,8 @@ async fn a_plan_is_shown_in_every_form_and_never_changes() {
         ("", "application/json", "{\"plan\":"),
         ("/scenario", "application/json", "{"),
         (".svg", "image/svg+xml", "<svg"),
+        (".geojson", "application/geo+json", "{\"type\":\"FeatureCollection\""),
+        (".geojson?origin=11.5,48", "application/geo+json", "{\"type\":\"FeatureCollection\""),
     ] {
         let path = format!("/v1/plans/{id}{end}");
         let answer = edge.good(&path).await;
@@ -182,11 +188,15 @@ async fn a_plan_is_shown_in_every_form_and_never_changes() {
 async fn what_is_not_there_is_a_problem() {
     let edge = Edge::new().await;
     let stranger = "01890a5d-ac96-774b-bcce-b302099a8057";
-    for end in ["", ".svg", "/scenario", "/explanation"] {
+    for end in ["", ".svg", ".geojson", "/scenario", "/explanation"] {
         edge.refused(&format!("/v1/plans/{stranger}{end}"), 404, &[]).await;
         edge.refused(&format!("/v1/plans/nothing{end}"), 400, &["id"]).await;
     }
     edge.refused("/v1/plans/%ff", 400, &["id"]).await;
+    edge.refused(&format!("/v1/plans/{stranger}.svg?origin=1,2"), 400, &["origin"]).await;
+    edge.refused(&format!("/v1/plans/{stranger}.geojson?origin=1"), 400, &["origin"]).await;
+    edge.refused("/v1/plans.csv?limit=1&from=now", 400, &["from", "limit"]).await;
+    edge.refused("/docs/nothing.js", 404, &[]).await;
     edge.refused("/v1/tours", 404, &[]).await;
     edge.refused("/v1/plans?until=never&colour=red", 400, &["until", "colour"]).await;
     edge.refused(&format!("/v1/plans/{stranger}?x=1"), 400, &["x"]).await;
@@ -201,4 +211,66 @@ async fn readiness_ends_with_the_shutdown() {
     edge.refused("/readyz", 503, &[]).await;
     edge.good("/healthz").await;
     assert!(edge.good("/openapi.json").await.json()["paths"].is_object());
+}
+
+#[tokio::test]
+async fn the_history_is_a_table_too() {
+    let edge = Edge::new().await;
+    let empty = edge.good("/v1/plans.csv").await;
+    assert_eq!(empty.headers[CONTENT_TYPE], "text/csv; charset=utf-8; header=present");
+    assert_eq!(empty.body.iter().filter(|&&byte| byte == b'\n').count(), 1, "a header");
+    let id = edge.plan().await;
+    let table = edge.good("/v1/plans.csv?network=net&charger=truck").await.body;
+    let table = String::from_utf8(table).unwrap();
+    assert_eq!(table.lines().count(), 2);
+    assert!(table.lines().nth(1).unwrap().starts_with(&id), "{table}");
+    assert_eq!(edge.good("/v1/plans.csv?solver=random").await.body, empty.body);
+    let packed = Request::get("/v1/plans.csv").header(ACCEPT_ENCODING, "gzip").body(Body::empty());
+    assert!(edge.ask(packed.unwrap()).await.body.starts_with(&[0x1f, 0x8b]));
+}
+
+#[tokio::test]
+async fn a_long_table_goes_on_page_by_page_and_breaks_off_with_the_service() {
+    let edge = Edge::new().await;
+    let id = edge.plan().await;
+    let table = || {
+        let first = Listed { items: Vec::new(), next: Some("ffffffff".to_owned()) };
+        super::export::table(edge.state.clone(), PlanFilter::default(), first)
+    };
+    let pieces: Vec<_> = table().collect().await;
+    let texts: Vec<_> =
+        pieces.into_iter().map(|piece| String::from_utf8(piece.unwrap()).unwrap()).collect();
+    assert!(texts[0].starts_with("id,departure_id,") && texts[1].starts_with(&id), "{texts:?}");
+    assert_eq!(texts.len(), 2);
+    edge.shutdown.cancel();
+    let pieces: Vec<_> = table().collect().await;
+    assert_eq!(pieces.iter().map(Result::is_ok).collect::<Vec<_>>(), [true, false]);
+}
+
+#[tokio::test]
+async fn the_document_has_a_page_and_the_page_asks_nobody_else() {
+    let edge = Edge::new().await;
+    let moved = edge.get("/docs").await;
+    assert_eq!(
+        (moved.status.as_u16(), moved.headers["location"].as_bytes()),
+        (308, &b"/docs/"[..])
+    );
+    let page = edge.good("/docs/").await;
+    assert!(page.headers[CONTENT_TYPE].to_str().unwrap().starts_with("text/html"));
+    let text = String::from_utf8(page.body).unwrap();
+    let quoted = text.split('"').skip(1).step_by(2);
+    let files: Vec<_> =
+        quoted.filter(|name| name.ends_with(".js") || name.ends_with(".css")).collect();
+    assert!(files.len() >= 3 && !text.contains("//"), "{text}");
+    for file in files {
+        let answer = edge.good(&format!("/docs/{}", file.trim_start_matches("./"))).await;
+        let policy = answer.headers["content-security-policy"].to_str().unwrap();
+        assert!(policy.contains("default-src 'none'") && !policy.contains("http"), "{policy}");
+    }
+    let start = edge.good("/docs/swagger-initializer.js").await.body;
+    let start = String::from_utf8(start).unwrap();
+    assert!(
+        start.contains("\"/openapi.json\"") && start.contains("\"validatorUrl\": \"none\""),
+        "{start}"
+    );
 }

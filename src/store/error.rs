@@ -19,6 +19,20 @@ pub enum StoreError {
     /// Another process has the database open.
     #[error("{} is in use by another process", .0.display())]
     InUse(PathBuf),
+    /// There is no database.
+    #[error("{}: there is no database", .0.display())]
+    Missing(PathBuf),
+    /// A service of an earlier version has the database open.
+    #[error("{}: a service of an earlier version runs on it; start it again with this version", .0.display())]
+    Older(PathBuf),
+    /// There are as many as there may be.
+    #[error("there are {most} {what}, the most at once")]
+    Full {
+        /// What there are so many of.
+        what: &'static str,
+        /// How many.
+        most: i64,
+    },
     /// The lock file cannot be made.
     #[error("lock file {}: {source}", path.display())]
     Lock {

@@ -120,6 +120,11 @@ impl Bench {
         Self { dir, clock, store, calls }
     }
 
+    /// The database file.
+    pub fn path(&self) -> std::path::PathBuf {
+        self.dir.path().join("db")
+    }
+
     /// To start a scheduler on.
     pub fn parts(self) -> (TempDir, Arc<ManualClock>, Store) {
         (self.dir, self.clock, self.store)

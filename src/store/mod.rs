@@ -13,6 +13,8 @@ mod open;
 mod page;
 mod read;
 mod rows;
+mod token_file;
+mod tokens;
 mod words;
 mod writer;
 
@@ -27,4 +29,6 @@ pub use explanations::Explained;
 pub use open::Store;
 pub use page::{DepartureFilter, Listed, Page, PlanFilter, RequestFilter};
 pub use read::{PlanSummary, Reads, Waiting};
+pub use token_file::TokenFile;
+pub use tokens::{Keys, TokenCount};
 pub use writer::Writer;

@@ -36,13 +36,42 @@ impl Store {
     pub async fn open(path: &Path, clock: Arc<dyn Clock>) -> Result<Self, StoreError> {
         let database = Database { path: path.to_owned(), _lock: Lock::take(path)? };
         let mut conn = database.connect().await?;
-        sqlx::migrate!("migrations/sqlite").run(&mut conn).await?;
+        Self::migrate(&mut conn).await?;
         let change = last_change(&mut conn).await?;
         let pool = SqlitePoolOptions::new().max_connections(READERS).acquire_timeout(PATIENCE);
-        let reads = Reads::new(pool.connect_with(database.options().read_only(true)).await?);
+        let reads = Reads::new(pool.connect_with(options(path).read_only(true)).await?);
         let (writer, task) = writer::spawn(database, conn, change, clock, reads.clone());
         Ok(Self { reads, writer, task })
     }
+
+    /// Ends a store that nothing was started on.
+    ///
+    /// # Errors
+    /// The last checkpoint failed.
+    pub(crate) async fn close(self) -> Result<(), StoreError> {
+        self.task.stop.cancel();
+        self.task.ended.await.unwrap_or_else(|error| Err(StoreError::Task(error.to_string())))
+    }
+
+    /// Brings the schema up to date.
+    pub(super) async fn migrate(conn: &mut SqliteConnection) -> Result<(), StoreError> {
+        Ok(sqlx::migrate!("migrations/sqlite").run(conn).await?)
+    }
+}
+
+/// A connection that writes.
+pub(super) async fn connect(path: &Path, create: bool) -> Result<SqliteConnection, StoreError> {
+    Ok(options(path).create_if_missing(create).connect().await?)
+}
+
+fn options(path: &Path) -> SqliteConnectOptions {
+    SqliteConnectOptions::new()
+        .filename(path)
+        .journal_mode(SqliteJournalMode::Wal)
+        .synchronous(SqliteSynchronous::Full)
+        .foreign_keys(true)
+        .busy_timeout(Duration::from_secs(5))
+        .disable_statement_logging()
 }
 
 /// The database file, locked.
@@ -55,13 +84,13 @@ pub(super) struct Database {
 impl Database {
     /// The connection that writes.
     pub async fn connect(&self) -> Result<SqliteConnection, StoreError> {
-        Ok(self.options().create_if_missing(true).connect().await?)
+        connect(&self.path, true).await
     }
 
     /// Opens the database again after a failed write. What was acknowledged must be there: a last
     /// change before `acknowledged` is a database that has lost something.
     pub async fn reopen(&self, acknowledged: u64) -> Result<(SqliteConnection, u64), StoreError> {
-        let mut conn = self.options().connect().await?;
+        let mut conn = connect(&self.path, false).await?;
         let verdict: String = sqlx::query_scalar("PRAGMA quick_check").fetch_one(&mut conn).await?;
         if verdict != "ok" {
             return Err(StoreError::Verification(verdict));
@@ -75,16 +104,6 @@ impl Database {
         // it back into the file before anything else shows that syncing works again.
         sqlx::query("PRAGMA wal_checkpoint(TRUNCATE)").execute(&mut conn).await?;
         Ok((conn, change))
-    }
-
-    fn options(&self) -> SqliteConnectOptions {
-        SqliteConnectOptions::new()
-            .filename(&self.path)
-            .journal_mode(SqliteJournalMode::Wal)
-            .synchronous(SqliteSynchronous::Full)
-            .foreign_keys(true)
-            .busy_timeout(Duration::from_secs(5))
-            .disable_statement_logging()
     }
 }
 

@@ -3,7 +3,7 @@
 
 use jiff::Timestamp;
 
-use crate::domain::{ChargerId, DepartureState, NetworkId, RequestState, SensorId};
+use crate::domain::{ChargerId, DepartureState, NetworkId, NetworkScope, RequestState, SensorId};
 
 /// Which page of a list.
 #[derive(Clone, Debug)]
@@ -33,6 +33,8 @@ pub struct Listed<T> {
 /// Which requests to list; everything that is none or empty lets all pass.
 #[derive(Clone, Debug, Default)]
 pub struct RequestFilter {
+    /// Of those that the caller knows of.
+    pub within: NetworkScope,
     /// Of this network.
     pub network_id: Option<NetworkId>,
     /// In one of these states.
@@ -44,6 +46,8 @@ pub struct RequestFilter {
 /// Which departures to list.
 #[derive(Clone, Debug, Default)]
 pub struct DepartureFilter {
+    /// Of those that the caller knows of.
+    pub within: NetworkScope,
     /// Of this network.
     pub network_id: Option<NetworkId>,
     /// Of this charger.
@@ -55,6 +59,8 @@ pub struct DepartureFilter {
 /// Which plans to list.
 #[derive(Clone, Debug, Default)]
 pub struct PlanFilter {
+    /// Of those that the caller knows of.
+    pub within: NetworkScope,
     /// Of this network.
     pub network_id: Option<NetworkId>,
     /// Of this charger.

@@ -12,7 +12,8 @@ use super::page::{DepartureFilter, Listed, Page, PlanFilter, RequestFilter};
 use super::rows::{self, departure_columns, request_columns, tour_columns};
 use super::words::Word;
 use crate::domain::{
-    ChargerId, Departure, DepartureId, Network, NetworkId, PlanId, Request, RequestId, Tour, TourId,
+    ChargerId, Departure, DepartureId, Network, NetworkId, NetworkScope, PlanId, Request,
+    RequestId, Tour, TourId,
 };
 
 /// The read half of the store; cheap to clone.
@@ -90,12 +91,17 @@ impl Reads {
     }
 
     /// Networks by id, without specs.
-    pub async fn networks(&self, page: &Page) -> Result<Listed<Network>, StoreError> {
+    pub async fn networks(
+        &self,
+        scope: &NetworkScope,
+        page: &Page,
+    ) -> Result<Listed<Network>, StoreError> {
         let mut select = Select::new(
             "SELECT n.id, n.version, n.created_us, n.updated_us, v.sensor_count \
              FROM networks n JOIN network_versions v \
              ON v.network_id = n.id AND v.version = n.version WHERE 1 = 1",
         );
+        within(&mut select, "n.id", scope);
         if let Some(after) = &page.after {
             select.push(" AND n.id > ").push_bind(after.clone());
         }
@@ -117,6 +123,7 @@ impl Reads {
     ) -> Result<Listed<Request>, StoreError> {
         let mut select =
             Select::new(concat!("SELECT ", request_columns!(), " FROM requests r WHERE 1 = 1"));
+        within(&mut select, "r.network_id", &f.within);
         equal(&mut select, "r.network_id", f.network_id.as_ref());
         equal(&mut select, "r.sensor_id", f.sensor_id.as_ref());
         among(&mut select, "r.state", &f.states);
@@ -172,6 +179,7 @@ impl Reads {
     ) -> Result<Listed<Departure>, StoreError> {
         let mut select =
             Select::new(concat!("SELECT ", departure_columns!(), " FROM departures d WHERE 1 = 1"));
+        within(&mut select, "d.network_id", &f.within);
         equal(&mut select, "d.network_id", f.network_id.as_ref());
         equal(&mut select, "d.charger_id", f.charger_id.as_ref());
         among(&mut select, "d.state", &f.states);
@@ -289,6 +297,7 @@ impl Reads {
              p.solver, p.objective, p.bound, p.distance_m, p.stop_count, p.unserved_count, \
              p.start_us, p.finish_us, p.created_us FROM plans p WHERE 1 = 1",
         );
+        within(&mut select, "p.network_id", &f.within);
         equal(&mut select, "p.network_id", f.network_id.as_ref());
         equal(&mut select, "p.charger_id", f.charger_id.as_ref());
         equal(&mut select, "p.status", f.status.as_ref());
@@ -301,6 +310,13 @@ impl Reads {
         }
         newest(&mut select, "p.id", page);
         self.page(select, page, rows::plan, |plan| plan.id.to_string()).await
+    }
+
+    /// The network of a plan; none where there is no such plan.
+    pub async fn plan_network(&self, id: PlanId) -> Result<Option<NetworkId>, StoreError> {
+        let row = sqlx::query("SELECT network_id FROM plans WHERE id = ?").bind(id.to_string());
+        let row = row.fetch_optional(&self.pool).await?;
+        row.map(|row| Cells::new("plans", &row).parsed("network_id")).transpose()
     }
 
     /// The envelope `{plan, provenance}` of a plan, as JSON text.
@@ -384,6 +400,16 @@ fn equal(select: &mut Select, column: &str, value: Option<&impl ToString>) {
     if let Some(value) = value {
         select.push(" AND ").push(column).push(" = ").push_bind(value.to_string());
     }
+}
+
+fn within(select: &mut Select, column: &str, scope: &NetworkScope) {
+    let NetworkScope::Only(ids) = scope else { return };
+    select.push(" AND ").push(column).push(" IN (");
+    let mut list = select.separated(", ");
+    for id in ids {
+        list.push_bind(id.to_string());
+    }
+    select.push(")");
 }
 
 fn among<W: Word + PartialEq>(select: &mut Select, column: &str, states: &[W]) {

@@ -2,7 +2,7 @@
 
 use voltour_solver::plan::Status;
 
-use crate::domain::{DepartureState, Outcome, RequestState, TourState};
+use crate::domain::{DepartureState, Outcome, RequestState, Role, TourState};
 
 /// A value that the database holds as a word.
 pub(super) trait Word: Sized + Copy + 'static {
@@ -35,6 +35,8 @@ words!(DepartureState: Announced = "announced", Closed = "closed", Planned = "pl
     Completed = "completed", Overdue = "overdue", Cancelled = "cancelled", Missed = "missed");
 words!(TourState: Out = "out", Completed = "completed", Overdue = "overdue",
     Cancelled = "cancelled");
+words!(Role: BaseStation = "base_station", Charger = "charger", Operator = "operator",
+    Admin = "admin");
 words!(Outcome: Charged = "charged", Skipped = "skipped", Failed = "failed");
 words!(Status: Optimal = "optimal", Feasible = "feasible", BestEffort = "best_effort",
     Infeasible = "infeasible");

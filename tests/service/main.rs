@@ -18,8 +18,10 @@ mod time;
 #[path = "../common/onnx.rs"]
 mod onnx;
 
+mod access;
 mod bad_input;
 mod batch;
+mod config;
 mod crash;
 mod downtime;
 mod explanations;

@@ -2,10 +2,14 @@
 
 use std::process::{Command, Stdio};
 
+use prost::Message;
+use prost_types::{FileDescriptorProto, FileDescriptorSet};
+use tonic::Code;
 use tonic_health::pb::HealthCheckRequest;
 use tonic_health::pb::health_check_response::ServingStatus;
 use tonic_health::pb::health_client::HealthClient;
-use voltour::proto::{AnnounceRequest, WatchRequestsRequest};
+use tonic_types::StatusExt;
+use voltour::proto::{AnnounceRequest, GetRequestRequest, SubmitRequest, WatchRequestsRequest};
 
 use crate::app::{TestApp, wait_exit};
 use crate::calls::{OPEN, soon};
@@ -104,6 +108,72 @@ async fn health_and_reflection_answer() {
         let name = format!("voltour.v1.{name}");
         assert!(list.service.iter().any(|service| service.name == name), "{name}");
     }
+}
+
+#[tokio::test]
+async fn every_service_says_that_it_serves_no_more_while_the_process_ends() {
+    let mut app = TestApp::start().await;
+    let mut watches = Vec::new();
+    for service in ["", "voltour.v1.NetworkService", "voltour.v1.DepartureService"] {
+        let check = HealthCheckRequest { service: service.into() };
+        let mut health = HealthClient::new(app.channel());
+        let mut watch = health.watch(check).await.unwrap().into_inner();
+        let first = soon("the present state", watch.message()).await.unwrap().unwrap();
+        assert_eq!(first.status(), ServingStatus::Serving, "{service:?}");
+        watches.push(watch);
+    }
+    let unknown = HealthCheckRequest { service: "voltour.v1.Nothing".into() };
+    let refused = HealthClient::new(app.channel()).check(unknown).await.unwrap_err();
+    assert_eq!(refused.code(), Code::NotFound);
+    assert_eq!(app.sigterm().await.code(), Some(0));
+    for mut watch in watches {
+        let last = soon("the last state", watch.message()).await.unwrap().unwrap();
+        assert_eq!(last.status(), ServingStatus::NotServing);
+        assert!(!matches!(soon("the end", watch.message()).await, Ok(Some(_))));
+    }
+}
+
+#[tokio::test]
+async fn errors_carry_what_a_program_needs_to_know() {
+    let app = TestApp::start().await;
+    let missing = GetRequestRequest { request_id: "0190163d-8694-739b-8ca7-c9f6e6a7b0a1".into() };
+    let refused = app.requests().get(missing).await.unwrap_err();
+    assert_eq!(refused.code(), Code::NotFound);
+    let resource = refused.get_details_resource_info().expect("which thing");
+    assert_eq!(resource.resource_type, "request");
+    assert_eq!(resource.resource_name, "0190163d-8694-739b-8ca7-c9f6e6a7b0a1");
+    let refused = app.requests().submit(SubmitRequest::default()).await.unwrap_err();
+    let fields = refused.get_details_bad_request().expect("which fields").field_violations;
+    let names: Vec<_> = fields.iter().map(|violation| violation.field.as_str()).collect();
+    assert_eq!(names, ["client_id", "network_id", "sensor_id"]);
+    assert!(fields.iter().all(|violation| !violation.description.is_empty()));
+}
+
+#[tokio::test]
+async fn reflection_shows_the_very_contract() {
+    use tonic_reflection::pb::v1::server_reflection_client::ServerReflectionClient;
+    use tonic_reflection::pb::v1::server_reflection_request::MessageRequest;
+    use tonic_reflection::pb::v1::server_reflection_response::MessageResponse;
+    let app = TestApp::start().await;
+    let symbol = MessageRequest::FileContainingSymbol("voltour.v1.TourService".to_owned());
+    let ask = tonic_reflection::pb::v1::ServerReflectionRequest {
+        host: String::new(),
+        message_request: Some(symbol),
+    };
+    let mut reflection = ServerReflectionClient::new(app.channel());
+    let answers = reflection.server_reflection_info(tokio_stream::once(ask)).await.unwrap();
+    let answer = soon("reflection", answers.into_inner().message()).await.unwrap().unwrap();
+    let Some(MessageResponse::FileDescriptorResponse(files)) = answer.message_response else {
+        panic!("{answer:?}")
+    };
+    let shown: Vec<_> = files
+        .file_descriptor_proto
+        .iter()
+        .map(|file| FileDescriptorProto::decode(file.as_slice()).unwrap())
+        .collect();
+    let built = FileDescriptorSet::decode(voltour::proto::DESCRIPTORS).unwrap();
+    let tour = built.file.iter().find(|file| file.name() == "voltour/v1/tour.proto").unwrap();
+    assert!(shown.contains(tour), "the contract that the server was built with");
 }
 
 #[tokio::test]

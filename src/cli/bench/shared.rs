@@ -17,7 +17,7 @@ pub struct Shared {
     #[arg(long, value_name = "TIME", default_value = "10s", value_parser = solve::time)]
     pub time_limit: Duration,
     /// Iterations of baseline, so that its tours do not depend on the machine
-    #[arg(long, value_name = "N", default_value_t = 1000, value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, value_name = "N", default_value_t = 20_000, value_parser = clap::value_parser!(u64).range(1..))]
     pub iterations: u64,
     /// Memory that acs, dp and app may use, in MiB
     #[arg(long, value_name = "MIB", default_value_t = 1024, value_parser = clap::value_parser!(u32).range(1..))]

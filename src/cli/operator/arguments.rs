@@ -4,7 +4,7 @@ use std::str::FromStr;
 
 use jiff::Timestamp;
 
-use super::client;
+use super::remote::Remote;
 use crate::cli::Failure;
 use crate::clock::{Clock, Ids, SystemClock, plus};
 use crate::config::Span;
@@ -13,15 +13,8 @@ use crate::domain::ClientId;
 /// Where the service is, and how to answer.
 #[derive(Clone, Debug, clap::Args)]
 pub struct Common {
-    /// Address of the running service
-    #[arg(
-        long,
-        value_name = "URL",
-        env = "VOLTOUR_SERVER",
-        default_value = client::DEFAULT,
-        hide_env_values = true
-    )]
-    pub server: String,
+    #[command(flatten)]
+    pub remote: Remote,
     /// Print JSON: one object a line
     #[arg(long)]
     pub json: bool,

@@ -3,7 +3,7 @@
 use clap::Subcommand;
 
 use super::arguments::{Common, fresh_id};
-use super::client::{self, call, refused, unreadable};
+use super::client::{call, refused, unreadable};
 use super::show;
 use crate::cli::{Failure, say};
 use crate::domain::{ChargerId, NetworkId};
@@ -33,7 +33,7 @@ pub struct Lost {
 
 /// Runs a command.
 pub async fn run(Command::Lost(args): Command) -> Result<(), Failure> {
-    let channel = client::connect(&args.common.server).await?;
+    let channel = args.common.remote.connect().await?;
     let mut client = DepartureServiceClient::new(channel);
     let states = [DepartureState::Announced, DepartureState::Closed, DepartureState::Planned];
     let (mut page_token, mut found, mut failures) = (String::new(), 0_u32, Vec::new());

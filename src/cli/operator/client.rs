@@ -1,38 +1,17 @@
-//! The connection to the service, and what its refusals look like here.
+//! Calls of the service, and what its refusals look like here.
 
 use std::time::Duration;
 
-use tonic::transport::{Channel, Endpoint};
 use tonic::{Code, Request, Status};
 
 use crate::cli::Failure;
 use crate::domain::Refusal;
 use crate::grpc::violations;
 
-/// Where a service listens if nobody has configured anything.
-pub const DEFAULT: &str = "http://127.0.0.1:7440";
-
 /// A call that does not wait for anything is answered at once; this is for a busy database.
 const TIMEOUT: Duration = Duration::from_secs(30);
 /// The largest message that is taken: the most that a service can be configured to send.
 pub const MESSAGE_BYTES: usize = 64 * 1024 * 1024;
-
-/// Connects.
-pub async fn connect(server: &str) -> Result<Channel, Failure> {
-    let bad = |why: &dyn std::fmt::Display| {
-        Failure::input(format!("--server {server:?} must be like {DEFAULT}: {why}"))
-    };
-    let endpoint = Endpoint::from_shared(server.to_owned()).map_err(|error| bad(&error))?;
-    if endpoint.uri().scheme_str() != Some("http") {
-        return Err(bad(&"the service speaks gRPC without TLS, on loopback"));
-    }
-    let connecting = endpoint.connect_timeout(Duration::from_secs(5)).connect().await;
-    connecting.map_err(|error| {
-        let why = std::error::Error::source(&error).map(|source| format!(": {source}"));
-        let why = why.unwrap_or_default();
-        Failure::other(format!("no service answers at {server}{why}; is `voltour serve` running?"))
-    })
-}
 
 /// A call with the usual time for an answer.
 pub fn call<T>(message: T) -> Request<T> {
@@ -75,6 +54,8 @@ fn name(code: Code) -> &'static str {
         Code::ResourceExhausted => "too much at once",
         Code::Unavailable => "unavailable",
         Code::InvalidArgument => "bad input",
+        Code::Unauthenticated => "not let in",
+        Code::PermissionDenied => "not allowed",
         _ => "failed",
     }
 }

@@ -3,7 +3,7 @@
 use jiff::Timestamp;
 
 use super::arguments::{Caller, Common, Point, from_now};
-use super::client::{self, call, refused, unreadable};
+use super::client::{call, refused, unreadable};
 use super::show;
 use crate::cli::Failure;
 use crate::config::Span;
@@ -69,7 +69,7 @@ pub async fn run(args: Args) -> Result<(), Failure> {
         timespan_s: args.timespan_s,
     };
     let message = wire::announcement_to_wire(&args.caller.id()?, announced);
-    let channel = client::connect(&args.common.server).await?;
+    let channel = args.common.remote.connect().await?;
     let mut client = DepartureServiceClient::new(channel);
     let departure = client.announce(call(message)).await.map_err(refused)?.into_inner();
     let departure = wire::departure(departure).map_err(unreadable)?;

@@ -7,10 +7,12 @@ mod command;
 mod depart;
 mod ndjson;
 mod network;
+mod remote;
 mod request;
 mod show;
 mod tour;
 
 pub(crate) use arguments::fresh_id;
-pub(crate) use client::{call, connect, refused, unreadable, waiting};
+pub(crate) use client::{call, refused, unreadable, waiting};
 pub use command::{Command, run};
+pub(crate) use remote::{Remote, Service};

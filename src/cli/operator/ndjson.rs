@@ -8,10 +8,10 @@ use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 use tokio::sync::mpsc;
 use tokio_stream::wrappers::ReceiverStream;
-use tonic::transport::Channel;
 
 use super::arguments::fresh_id;
 use super::client::{refused, unreadable};
+use super::remote::Service;
 use super::show;
 use crate::cli::{Failure, input, say};
 use crate::domain::{ClientId, NetworkId, NewRequest, Place, Request, SensorId};
@@ -55,7 +55,7 @@ struct Shown<'a> {
 
 /// Submits the lines of a file; what is refused is told and does not stop the others.
 pub async fn submit(
-    mut client: RequestServiceClient<Channel>,
+    mut client: RequestServiceClient<Service>,
     file: PathBuf,
     network: Option<NetworkId>,
     json: bool,

@@ -7,6 +7,7 @@ use serde_json::Value;
 
 use super::arguments::{Caller, Common};
 use super::client::{self, call, refused, unreadable};
+use super::remote::Service;
 use super::show;
 use crate::cli::{Failure, input};
 use crate::domain::{NetworkId, NetworkSpec};
@@ -124,10 +125,8 @@ async fn list(args: List) -> Result<(), Failure> {
     }
 }
 
-async fn connect(
-    common: &Common,
-) -> Result<NetworkServiceClient<tonic::transport::Channel>, Failure> {
-    let channel = client::connect(&common.server).await?;
+async fn connect(common: &Common) -> Result<NetworkServiceClient<Service>, Failure> {
+    let channel = common.remote.connect().await?;
     Ok(NetworkServiceClient::new(channel).max_decoding_message_size(client::MESSAGE_BYTES))
 }
 

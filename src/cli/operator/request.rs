@@ -4,10 +4,10 @@ use std::path::PathBuf;
 
 use clap::{Subcommand, ValueEnum};
 use jiff::Timestamp;
-use tonic::transport::Channel;
 
 use super::arguments::{Caller, Common, Point, from_now};
-use super::client::{self, call, refused, unreadable};
+use super::client::{MESSAGE_BYTES, call, refused, unreadable};
+use super::remote::Service;
 use super::{ndjson, show};
 use crate::cli::Failure;
 use crate::config::Span;
@@ -195,7 +195,7 @@ async fn list(args: List) -> Result<(), Failure> {
     Ok(())
 }
 
-async fn connect(common: &Common) -> Result<RequestServiceClient<Channel>, Failure> {
-    let channel = client::connect(&common.server).await?;
-    Ok(RequestServiceClient::new(channel).max_decoding_message_size(client::MESSAGE_BYTES))
+async fn connect(common: &Common) -> Result<RequestServiceClient<Service>, Failure> {
+    let channel = common.remote.connect().await?;
+    Ok(RequestServiceClient::new(channel).max_decoding_message_size(MESSAGE_BYTES))
 }

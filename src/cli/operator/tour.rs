@@ -5,7 +5,7 @@ use std::time::Duration;
 use clap::Subcommand;
 
 use super::arguments::Common;
-use super::client::{self, refused, unreadable, waiting};
+use super::client::{MESSAGE_BYTES, refused, unreadable, waiting};
 use super::show;
 use crate::cli::Failure;
 use crate::config::Span;
@@ -50,9 +50,8 @@ pub async fn run(Command::Get(args): Command) -> Result<(), Failure> {
         charger_id: args.charger.into(),
         departure_id: args.departure.map(|id| id.to_string()).unwrap_or_default(),
     };
-    let channel = client::connect(&args.common.server).await?;
-    let mut client =
-        TourServiceClient::new(channel).max_decoding_message_size(client::MESSAGE_BYTES);
+    let channel = args.common.remote.connect().await?;
+    let mut client = TourServiceClient::new(channel).max_decoding_message_size(MESSAGE_BYTES);
     let tour = client.get_next(waiting(message, args.wait.0.min(LONGEST))).await;
     let tour = wire::tour(tour.map_err(refused)?.into_inner()).map_err(unreadable)?;
     show::item(args.common.json, &tour, show::tour)

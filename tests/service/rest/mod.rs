@@ -1,6 +1,7 @@
 //! The REST edge: what an operator reads. Every route, the same facts as over gRPC.
 
 mod agreement;
+mod forms;
 mod history;
 mod lists;
 mod picture;

@@ -1,0 +1,97 @@
+//! In front of every route: the name that the caller believes to speak to, the access table, and then
+//! the caller's token.
+
+use std::sync::Arc;
+
+use axum::extract::{FromRequestParts, MatchedPath, Request, State};
+use axum::http::header::{HOST, WWW_AUTHENTICATE};
+use axum::http::request::Parts;
+use axum::http::uri::Authority;
+use axum::http::{HeaderValue, StatusCode};
+use axum::middleware::Next;
+use axum::response::{IntoResponse, Response};
+
+use super::problem::Problem;
+use crate::access::{Caller, Gate, table};
+use crate::domain::Refusal;
+
+/// What browsers and clients may send; the first is what a program should.
+const CHALLENGES: [&str; 2] = ["Bearer realm=\"voltour\"", "Basic realm=\"voltour\""];
+
+/// Lets calls through, with their caller among their extensions.
+#[derive(Clone, Debug)]
+pub struct Guard {
+    gate: Gate,
+    /// None where any name will do.
+    hosts: Option<Arc<[String]>>,
+}
+
+impl Guard {
+    /// In front of a listener. On loopback only names of this machine are answered to, and `hosts`: a page
+    /// that a browser here has loaded from elsewhere may lead any other name to this address.
+    pub fn new(gate: Gate, is_loopback: bool, hosts: &[String]) -> Self {
+        let lower = || hosts.iter().map(|host| host.to_ascii_lowercase()).collect();
+        Self { gate, hosts: is_loopback.then(lower) }
+    }
+
+    fn host(&self, call: &Request) -> Result<(), Problem> {
+        let Some(hosts) = &self.hosts else { return Ok(()) };
+        let header = call.headers().get(HOST).and_then(|host| host.to_str().ok());
+        let named = call.uri().authority().map(Authority::as_str).or(header).unwrap_or_default();
+        let name = named.parse::<Authority>().map(|name| name.host().to_ascii_lowercase());
+        if name.is_ok_and(|name| is_this_machine(&name) || hosts.contains(&name)) {
+            return Ok(());
+        }
+        let named: String = named.chars().take(80).collect();
+        let rule = "must be localhost, a loopback address or one of rest.hosts";
+        let problem = Problem::new(StatusCode::MISDIRECTED_REQUEST);
+        Err(problem.detail(format!("Host: {named:?} {rule}")))
+    }
+}
+
+/// The guard's layer. It stands behind the router, which has found the route by then.
+pub(super) async fn guard(
+    State(guard): State<Guard>,
+    mut call: Request,
+    next: Next,
+) -> Result<Response, Response> {
+    guard.host(&call).map_err(Problem::into_response)?;
+    let route = call.extensions().get::<MatchedPath>();
+    let who = route.and_then(|route| table::rest(route.as_str()));
+    let who = who.ok_or_else(|| Problem::new(StatusCode::NOT_FOUND).into_response())?;
+    if let Some(caller) = guard.gate.admit(who, call.headers()).await.map_err(refused)? {
+        call.extensions_mut().insert(caller);
+    }
+    Ok(next.run(call).await)
+}
+
+fn is_this_machine(name: &str) -> bool {
+    let address = name.trim_start_matches('[').trim_end_matches(']');
+    name == "localhost" || address.parse().is_ok_and(|ip: std::net::IpAddr| ip.is_loopback())
+}
+
+fn refused(refusal: Refusal) -> Response {
+    let status = match &refusal {
+        Refusal::Unauthenticated(_) => StatusCode::UNAUTHORIZED,
+        Refusal::PermissionDenied(_) => StatusCode::FORBIDDEN,
+        Refusal::Unavailable(_) => StatusCode::SERVICE_UNAVAILABLE,
+        other => return Problem::internal(other).into_response(),
+    };
+    let mut response = Problem::new(status).detail(refusal.to_string()).into_response();
+    if status == StatusCode::UNAUTHORIZED {
+        for challenge in CHALLENGES {
+            response.headers_mut().append(WWW_AUTHENTICATE, HeaderValue::from_static(challenge));
+        }
+    }
+    response
+}
+
+impl<S: Sync> FromRequestParts<S> for Caller {
+    type Rejection = Response;
+
+    async fn from_request_parts(parts: &mut Parts, _: &S) -> Result<Self, Response> {
+        let caller = parts.extensions.get().cloned();
+        let defect = || Problem::internal(&"a defect: a call came past the guard");
+        caller.ok_or_else(|| defect().into_response())
+    }
+}
