@@ -42,6 +42,7 @@ impl Candidate {
     }
 
     /// Energy delivered where charging begins at `arrive_s`, in joules.
+    #[inline]
     pub fn charge_j(&self, arrive_s: f64) -> f64 {
         self.target_j - (self.residual_j - self.drain_w * arrive_s).max(0.0)
     }

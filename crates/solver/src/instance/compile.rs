@@ -210,6 +210,7 @@ impl<'a> Instance<'a> {
     }
 
     /// Goes on to candidate `to` and charges it; its deadline is not looked at.
+    #[inline]
     pub fn step(&self, run: &Run, to: u32) -> Run {
         let speed = self.scenario.charger.speed_mps;
         let candidate = &self.candidates[to as usize];
@@ -248,6 +249,7 @@ impl<'a> Instance<'a> {
     }
 
     /// Goes on to the end of the tour.
+    #[inline]
     pub fn finish(&self, run: &Run) -> Run {
         let leg_m = if self.moving {
             (self.scenario.charger.end_m - run.place).norm()
@@ -271,6 +273,7 @@ impl<'a> Instance<'a> {
     }
 
     /// Whether charging began in time at the candidate that `run` stands at.
+    #[inline]
     pub fn in_time(&self, run: &Run) -> bool {
         run.arrive_s <= self.candidates[run.node as usize].due_s
     }

@@ -91,6 +91,26 @@ impl Tour {
         Some(Insertion { position, effort })
     }
 
+    /// [`Tour::insertion`], if it takes less than `most`. Where metres alone count, times are looked at only
+    /// for those.
+    pub fn insertion_below(
+        &self,
+        instance: &Instance<'_>,
+        position: usize,
+        candidate: u32,
+        most: f64,
+    ) -> Option<Insertion> {
+        let per = &instance.effort;
+        if per.per_s == 0.0
+            && per.per_j == 0.0
+            && !instance.moving
+            && per.per_m * self.detour_m(instance, position, candidate) >= most
+        {
+            return None;
+        }
+        self.insertion(instance, position, candidate).filter(|new| new.effort < most)
+    }
+
     /// Metres by which a candidate lengthens the way.
     pub(crate) fn detour_m(&self, instance: &Instance<'_>, position: usize, candidate: u32) -> f64 {
         let (from, to) = (self.place_before(instance, position), self.place(instance, position));
@@ -142,9 +162,22 @@ impl Tour {
         Some((metres, reach_s - self.arrive_s(position), run.charge_j - before.charge_j))
     }
 
-    /// The cheapest legal place of a candidate among all.
+    /// Positions before which a candidate can be put in time at all: the charger leaves those behind them too late.
+    pub fn in_time_until(&self, instance: &Instance<'_>, candidate: u32) -> usize {
+        if instance.untimed {
+            return self.len() + 1;
+        }
+        let due_s = instance.candidates[candidate as usize].due_s;
+        (0..=self.len()).take_while(|&p| self.before(p).depart_s <= due_s).count()
+    }
+
+    /// The cheapest legal place of a candidate among all, the first among equals.
     pub fn cheapest(&self, instance: &Instance<'_>, candidate: u32) -> Option<Insertion> {
-        let all = (0..=self.len()).filter_map(|p| self.insertion(instance, p, candidate));
-        all.min_by(|a, b| a.effort.total_cmp(&b.effort))
+        let mut best: Option<Insertion> = None;
+        for position in 0..self.in_time_until(instance, candidate) {
+            let most = best.map_or(f64::INFINITY, |best| best.effort);
+            best = self.insertion_below(instance, position, candidate, most).or(best);
+        }
+        best
     }
 }

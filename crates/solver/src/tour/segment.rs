@@ -29,6 +29,7 @@ pub struct Segment {
 
 impl Segment {
     /// One candidate.
+    #[inline]
     pub fn stop(instance: &Instance<'_>, node: u32) -> Self {
         let candidate = &instance.candidates[node as usize];
         let transfer_w = instance.scenario.charger.transfer_w;
@@ -64,6 +65,7 @@ impl Segment {
     }
 
     /// This run, then `next`.
+    #[inline]
     pub fn then(&self, instance: &Instance<'_>, next: &Self) -> Self {
         let leg_m = instance.distance_m(self.last as usize, next.first as usize);
         let leg_s = leg_m / instance.scenario.charger.speed_mps;

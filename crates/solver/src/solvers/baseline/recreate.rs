@@ -117,15 +117,15 @@ fn place(
     let tour = &partial.tour;
     let mut best: Option<Insertion> = None;
     let mut attempt = |position: usize, rng: &mut Pcg64Mcg| {
-        if let Some(new) = tour.insertion(instance, position, candidate)
-            && best.is_none_or(|old| new.effort < old.effort)
+        let most = best.map_or(f64::INFINITY, |old| old.effort);
+        if let Some(new) = tour.insertion_below(instance, position, candidate, most)
             && !rng.random_bool(BLINK)
         {
             best = Some(new);
         }
     };
     if tour.len() <= WHOLE {
-        for position in 0..=tour.len() {
+        for position in 0..tour.in_time_until(instance, candidate) {
             attempt(position, rng);
         }
         return best;

@@ -136,7 +136,12 @@ impl<'a, 'b> Search<'a, 'b> {
             // Every third run spends what breaks ties sparingly, rather than what is scarce.
             self.instance.effort = if run % 3 == 2 { self.tie } else { self.scarce };
             self.cost.price(&self.instance, &self.best.tour);
-            let mut current = self.best.clone();
+            // Every third begins anew: where deadlines are tight, no way may lead from the best tour to a better.
+            let mut current = if run > 1 && run % 3 == 1 && stops <= LONG {
+                Partial::new(&self.instance, &[])
+            } else {
+                self.best.clone()
+            };
             let mut trial = current.clone();
             let mut current_cost = self.cost.of(&self.instance, &current);
             for i in 0..length {

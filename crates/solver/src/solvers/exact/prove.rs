@@ -51,12 +51,19 @@ const FIRST_LABELS: usize = 16_000;
 const MOST_LABEL_BYTES: usize = 600 << 20;
 /// The baseline does one iteration for so many labels; where sensors move, an iteration takes long.
 const LABELS_PER_ITERATION: usize = 36;
+/// In a share, where the proof turns out to be long, time is better spent on the tour first: iterations for each
+/// cube of its stops, and at most.
+const ITERATIONS_OF_LONG_PROOF: u64 = 3;
+const MOST_ITERATIONS_OF_LONG_PROOF: u64 = 40_000;
 const LABELS_PER_MOVING_ITERATION: usize = 500;
 const MOST_ITERATIONS: u64 = 20_000;
 /// Where the first bound leaves this share of the incumbent open, some iterations come before the search: few
 /// labels are worth following under a better incumbent.
 const WIDE_GAP: f64 = 0.15;
 const ITERATIONS_OF_WIDE_GAP: u64 = 300;
+const ITERATIONS_OF_WIDE_GAP_IN_SHARE: u64 = 2_000;
+/// Where the first search leaves this share open, one more will hardly do.
+const LONG_GAP: f64 = 0.1;
 /// Layers of time at most, where metres are the cost and where gains are.
 const MOST_INTERVALS: usize = 200;
 const MOST_INTERVALS_OF_GAIN: usize = 800;
@@ -98,7 +105,7 @@ pub fn prove(
     if rounds == 0 {
         return quickly(model, incumbent, known);
     }
-    let prover = Prover::new(model, &network, incumbent, rng, budget);
+    let prover = Prover::new(model, &network, effort, incumbent, rng, budget);
     match words {
         0..=1 => prover.prove::<1>(rounds, known),
         2 => prover.prove::<2>(rounds, known),
@@ -118,6 +125,7 @@ fn quickly(model: &Model<'_>, incumbent: &Incumbent, known: f64) -> Proof {
 struct Prover<'p, 'a, 'b> {
     model: &'p Model<'a>,
     paths: Relaxation<'p>,
+    effort: Effort,
     incumbent: &'p mut Incumbent,
     rng: &'p mut Pcg64Mcg,
     budget: &'p mut Budget<'b>,
@@ -127,6 +135,7 @@ impl<'p, 'a, 'b> Prover<'p, 'a, 'b> {
     fn new(
         model: &'p Model<'a>,
         network: &'p Network,
+        effort: Effort,
         incumbent: &'p mut Incumbent,
         rng: &'p mut Pcg64Mcg,
         budget: &'p mut Budget<'b>,
@@ -137,7 +146,7 @@ impl<'p, 'a, 'b> Prover<'p, 'a, 'b> {
         let size = if few(model) { FIRST_MEMORY_OF_FEW } else { FIRST_MEMORY };
         let memory = Memory::nearest(network, near, size);
         let paths = Relaxation::new(model, network, resource, intervals, horizon, memory);
-        Self { model, paths, incumbent, rng, budget }
+        Self { model, paths, effort, incumbent, rng, budget }
     }
 
     /// Proves on from a bound that is known.
@@ -161,7 +170,8 @@ impl<'p, 'a, 'b> Prover<'p, 'a, 'b> {
                 break;
             }
             labels = (3 * labels).min(most_labels);
-            self.improve(self.iterations(labels));
+            let is_long = round > 0 || self.is_open(bound, LONG_GAP);
+            self.improve(self.iterations(labels, is_long));
             if self.incumbent.suffices() {
                 return self.closed();
             }
@@ -205,9 +215,11 @@ impl<'p, 'a, 'b> Prover<'p, 'a, 'b> {
                 break;
             }
         }
-        let cutoff = self.incumbent.cutoff();
-        if round == 0 && few(model) && cutoff - ascent.best.bound > WIDE_GAP * cutoff {
-            self.improve(ITERATIONS_OF_WIDE_GAP);
+        if round == 0 && few(model) && self.is_open(ascent.best.bound, WIDE_GAP) {
+            self.improve(match self.effort {
+                Effort::Whole => ITERATIONS_OF_WIDE_GAP,
+                Effort::Share => ITERATIONS_OF_WIDE_GAP_IN_SHARE,
+            });
             if self.incumbent.suffices() {
                 return End::Closed;
             }
@@ -316,11 +328,24 @@ impl<'p, 'a, 'b> Prover<'p, 'a, 'b> {
         }) || instance.finish(&run).arrive_s > instance.timespan_s
     }
 
-    /// Iterations of the baseline in proportion to the labels of the next search.
-    fn iterations(&self, labels: usize) -> u64 {
-        let moving = self.model.wide.moving;
-        let per = if moving { LABELS_PER_MOVING_ITERATION } else { LABELS_PER_ITERATION };
-        ((labels / per) as u64).min(MOST_ITERATIONS)
+    /// Whether a bound leaves more than this share of the incumbent open.
+    fn is_open(&self, bound: f64, share: f64) -> bool {
+        let cutoff = self.incumbent.cutoff();
+        cutoff - bound > share * cutoff
+    }
+
+    /// Iterations of the baseline in proportion to the labels of the next search, or to what the tour may need.
+    fn iterations(&self, labels: usize, is_long: bool) -> u64 {
+        if self.model.wide.moving {
+            return (labels / LABELS_PER_MOVING_ITERATION) as u64;
+        }
+        let stops = self.incumbent.order.as_ref().map_or(0, Vec::len) as u64;
+        match self.effort {
+            Effort::Share if is_long => {
+                (ITERATIONS_OF_LONG_PROOF * stops.pow(3)).min(MOST_ITERATIONS_OF_LONG_PROOF)
+            }
+            _ => ((labels / LABELS_PER_ITERATION) as u64).min(MOST_ITERATIONS),
+        }
     }
 
     /// Lets the baseline improve the incumbent.

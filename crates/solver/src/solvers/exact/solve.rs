@@ -11,6 +11,8 @@ use crate::tour::{Tour, Value};
 
 /// Iterations of the baseline before the first bound: a good tour of a small instance.
 const FIRST: u64 = 60;
+/// In a share, whose budget may end before the first bound is there: so many for each stop of the tour, too.
+const FIRST_PER_STOP_OF_SHARE: u64 = 20;
 /// Iterations of the baseline for a tour that breaks as little as can be.
 const BEST_EFFORT: u64 = 2_000;
 /// Iterations of the baseline that make a proven tour shorter, or earlier, without changing its objective.
@@ -28,7 +30,11 @@ pub fn solve(
     budget: &mut Budget<'_>,
 ) -> Found {
     let before = budget.iterations();
-    let mut order = improved(instance, start, FIRST, rng, budget);
+    let first = match effort {
+        Effort::Whole => FIRST,
+        Effort::Share => FIRST + FIRST_PER_STOP_OF_SHARE * start.len() as u64,
+    };
+    let mut order = improved(instance, start, first, rng, budget);
     let mut claim = Claim::None;
     if !is_feasible(instance, &order) {
         let model = Model::new(instance, Aim::AnyTour);
