@@ -141,6 +141,11 @@ pub fn seconds(from: Timestamp, to: Timestamp) -> f64 {
     (to.as_microsecond() - from.as_microsecond()) as f64 / 1e6
 }
 
+/// Seconds since the Unix epoch.
+pub fn unix_s(at: Timestamp) -> f64 {
+    seconds(Timestamp::UNIX_EPOCH, at)
+}
+
 /// Whole microseconds: what the database keeps.
 pub fn whole(at: Timestamp) -> Timestamp {
     Timestamp::from_microsecond(at.as_microsecond()).unwrap_or(at)

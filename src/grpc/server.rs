@@ -1,13 +1,17 @@
 //! The server: the four services, health and reflection on one listener.
 
+use std::sync::Arc;
 use std::time::Duration;
 
+use tokio::sync::Semaphore;
 use tonic::server::NamedService;
 use tonic_health::ServingStatus;
 use tonic_health::server::HealthReporter;
 use tower_http::auth::AsyncRequireAuthorizationLayer;
+use tracing::field::Empty;
 
 use super::Edge;
+use super::count::Count;
 use super::guard::Guard;
 use crate::listen::{self, Counted};
 use crate::proto::DESCRIPTORS;
@@ -52,7 +56,8 @@ impl Server {
     /// Runs to its end.
     pub async fn run(self) -> Result<(), ServerError> {
         let Self { edge, listener } = self;
-        let (limits, stop) = (edge.limits, edge.stop.clone());
+        let (limits, stop, calls) = (edge.limits, edge.stop.clone(), edge.calls.clone());
+        let room = Arc::new(Semaphore::new(limits.all_calls));
         let (reporter, health) = tonic_health::server::health_reporter();
         report(&reporter, ServingStatus::Serving).await;
         let reflection = || {
@@ -74,12 +79,18 @@ impl Server {
             close(reporter).await;
         };
         tonic::transport::Server::builder()
-            .trace_fn(|call| tracing::debug_span!("grpc", path = call.uri().path()))
+            .trace_fn(|call| {
+                let path = call.uri().path();
+                tracing::debug_span!("grpc", otel.name = path, path, departure = Empty)
+            })
             .timeout(limits.longest_wait + CALL_SLACK)
             .max_concurrent_streams(limits.calls)
             .http2_max_header_list_size(HEADER_BYTES)
             .http2_keepalive_interval(Some(KEEPALIVE))
             .http2_keepalive_timeout(Some(KEEPALIVE_ANSWER))
+            .layer(tower::layer::layer_fn(move |inner| {
+                Count::new(inner, calls.clone(), limits, room.clone())
+            }))
             .layer(AsyncRequireAuthorizationLayer::new(Guard(edge.gate.clone())))
             .add_service(health)
             .add_service(reflection().build_v1()?)

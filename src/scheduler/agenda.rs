@@ -8,6 +8,7 @@ use std::time::Duration;
 use jiff::Timestamp;
 use tokio::sync::Notify;
 use tokio::task::{Id, JoinError, JoinSet};
+use tracing::Instrument;
 
 use super::departing::{Departing, Stuck};
 use crate::clock::{minus, plus};
@@ -101,7 +102,9 @@ impl Agenda {
         let (network, id) = (departure.network_id.clone(), departure.id);
         self.busy.insert(network.clone(), None);
         let departing = self.departing.clone();
-        let task = self.under_way.spawn(async move { departing.depart(id).await });
+        let span = tracing::info_span!("departure", departure = %id, %network);
+        let task = async move { departing.depart(id).await };
+        let task = self.under_way.spawn(task.instrument(span));
         self.tasks.insert(task.id(), (network, id));
     }
 

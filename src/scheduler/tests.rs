@@ -237,6 +237,7 @@ async fn a_plan_that_comes_late_is_made_again_with_the_lead_that_it_took() {
     let (_dir, clock, store) = bench.parts();
     let departing = Departing {
         writer: store.writer.clone(),
+        reads: store.reads.clone(),
         clock: Arc::new(Slow(clock.clone())),
         settings: Settings { budget: Duration::ZERO, ..Settings::default() },
         policies: Shelf::of(Policies::none()),

@@ -53,6 +53,11 @@ pub enum StoreError {
 }
 
 impl StoreError {
+    /// Whether others were in the way: so many read at once that there was no connection in time.
+    pub fn is_busy(&self) -> bool {
+        matches!(self, Self::Database(sqlx::Error::PoolTimedOut))
+    }
+
     pub(super) fn row(table: &'static str, reason: impl ToString) -> Self {
         Self::Row { table, reason: reason.to_string() }
     }

@@ -146,7 +146,11 @@ impl Bench {
     pub async fn put(&self, spec: NetworkSpec) -> Network {
         let content =
             PutNetwork { network_id: "net".parse().unwrap(), spec, expected_version: None };
-        self.store.writer.call(Put::new(call(&self.fresh(), content)).unwrap()).await.unwrap()
+        self.store
+            .writer
+            .call(Put::new(call(&self.fresh(), content), 1_000).unwrap())
+            .await
+            .unwrap()
     }
 
     pub async fn try_submit(&self, id: &str, asked: NewRequest) -> Result<Request, Refusal> {
@@ -169,7 +173,7 @@ impl Bench {
     }
 
     pub async fn try_announce(&self, id: &str, what: Announcement) -> Result<Departure, Refusal> {
-        self.store.writer.call(Announce { call: call(id, what), lead: LEAD }).await
+        self.store.writer.call(Announce { call: call(id, what), lead: LEAD, most: 1_000 }).await
     }
 
     /// As soon as can be.

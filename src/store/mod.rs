@@ -2,6 +2,7 @@
 //! that has queued up; [`Reads`] reads beside it.
 
 mod cells;
+mod census;
 mod commands;
 mod error;
 mod explanations;
@@ -19,6 +20,7 @@ mod words;
 mod writer;
 
 pub(crate) use cells::pack;
+pub use census::Census;
 pub use commands::{
     Announce, Attempt, Batch, BeginExplanation, Cancel, CloseBatch, Closing, Complete,
     EndExplanation, NewPlan, NewStop, Overdue, Put, ReportVisit, StorePlan, Storing, Submit,

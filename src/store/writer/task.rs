@@ -9,16 +9,20 @@ use sqlx::SqliteConnection;
 use tokio::sync::{mpsc, watch};
 use tokio::task::JoinHandle;
 use tokio_util::sync::CancellationToken;
+use tracing::Instrument;
 
 use super::job::{Asked, Command, Job};
 use super::writing::Writing;
-use crate::clock::{Clock, Ids, plus};
+use crate::clock::{Clock, Ids, plus, seconds, unix_s};
 use crate::domain::Refusal;
+use crate::metrics::WriterMetrics;
 use crate::store::open::{self, Database};
 use crate::store::{Reads, StoreError};
 
-/// Commands that may wait for the writer; more wait in their callers.
-const QUEUE: usize = 4_096;
+/// Commands that may wait for the writer.
+pub(super) const QUEUE: usize = 4_096;
+/// A caller from outside waits so long for room among them.
+const ROOM: Duration = Duration::from_secs(1);
 /// Commands in one transaction at most.
 const GROUP: usize = 1_000;
 /// How often a database that failed is opened again before the writer gives up.
@@ -30,6 +34,7 @@ pub struct Writer {
     queue: mpsc::Sender<Box<dyn Job>>,
     committed: watch::Receiver<u64>,
     tours: watch::Receiver<u64>,
+    metrics: WriterMetrics,
 }
 
 impl fmt::Debug for Writer {
@@ -39,7 +44,8 @@ impl fmt::Debug for Writer {
 }
 
 impl Writer {
-    /// Applies a command; its answer comes after the commit. Waits while the queue is full.
+    /// Applies a command; its answer comes after the commit. Waits while the queue is full: for the service's own
+    /// commands, of which there are few.
     pub(crate) async fn call<C: Command>(&self, command: C) -> Result<C::Answer, Refusal> {
         self.enqueue(command).await?.await
     }
@@ -51,9 +57,37 @@ impl Writer {
         command: C,
     ) -> Result<impl Future<Output = Result<C::Answer, Refusal>> + Send + use<C>, Refusal> {
         let closed = || Refusal::Unavailable("the service is shutting down".into());
-        let (job, answer) = Asked::new(command);
+        let (job, answer) = Asked::new(command, self.metrics.commands.enter());
         self.queue.send(Box::new(job)).await.map_err(|_| closed())?;
         Ok(async move { answer.await.unwrap_or_else(|_| Err(closed())) })
+    }
+
+    /// [`call`](Self::call) for callers from outside: they wait for room for a moment, and are refused then.
+    pub(crate) async fn offer<C: Command>(&self, command: C) -> Result<C::Answer, Refusal> {
+        self.enqueue_soon(command).await?.await
+    }
+
+    /// [`enqueue`](Self::enqueue) for callers from outside.
+    pub(crate) async fn enqueue_soon<C: Command>(
+        &self,
+        command: C,
+    ) -> Result<impl Future<Output = Result<C::Answer, Refusal>> + Send + use<C>, Refusal> {
+        let queued = tokio::time::timeout(ROOM, self.enqueue(command)).await;
+        queued.map_err(|_| {
+            let reason = format!("{QUEUE} commands wait for the database, the most at once");
+            Refusal::exhausted("the queue of the database", reason)
+        })?
+    }
+
+    /// How many commands more may wait.
+    #[cfg(test)]
+    pub(super) fn room(&self) -> usize {
+        self.queue.capacity()
+    }
+
+    /// What it counts.
+    pub fn metrics(&self) -> &WriterMetrics {
+        &self.metrics
     }
 
     /// The number of the last committed change.
@@ -86,10 +120,16 @@ pub(in crate::store) fn spawn(
 ) -> (Writer, Task) {
     let (queue, jobs) = mpsc::channel(QUEUE);
     let (committed, tours) = (watch::Sender::new(change), watch::Sender::new(change));
-    let writer = Writer { queue, committed: committed.subscribe(), tours: tours.subscribe() };
+    let metrics = WriterMetrics::default();
+    let writer = Writer {
+        queue,
+        committed: committed.subscribe(),
+        tours: tours.subscribe(),
+        metrics: metrics.clone(),
+    };
     let stop = CancellationToken::new();
     let writing = Writing::new(conn, change, clock, Ids::default());
-    let work = Work { database, jobs, committed, tours, reads, stop: stop.clone() };
+    let work = Work { database, jobs, committed, tours, reads, metrics, stop: stop.clone() };
     (writer, Task { stop, ended: tokio::spawn(work.run(writing)) })
 }
 
@@ -99,6 +139,7 @@ struct Work {
     committed: watch::Sender<u64>,
     tours: watch::Sender<u64>,
     reads: Reads,
+    metrics: WriterMetrics,
     stop: CancellationToken,
 }
 
@@ -114,7 +155,8 @@ impl Work {
     async fn run(mut self, mut writing: Writing) -> Result<(), StoreError> {
         let mut group = Vec::with_capacity(GROUP);
         while self.next(&mut group).await {
-            let fault = match self.attempt(&mut group, &mut writing).await {
+            let span = tracing::debug_span!("transaction", commands = group.len());
+            let fault = match self.attempt(&mut group, &mut writing).instrument(span).await {
                 Ok(()) => {
                     group.drain(..).for_each(Job::answer);
                     continue;
@@ -123,6 +165,7 @@ impl Work {
                 Err(Fault::Database(error)) => Err(error),
             };
             if let Err(error) = fault {
+                self.metrics.failed();
                 tracing::error!(%error, commands = group.len(), "a transaction failed, reopening the database");
                 group.drain(..).for_each(|job| job.refuse(unavailable()));
                 writing = self.recover(writing).await?;
@@ -148,7 +191,7 @@ impl Work {
         group: &mut [Box<dyn Job>],
         writing: &mut Writing,
     ) -> Result<(), Fault> {
-        let before = writing.change();
+        let (before, commands) = (writing.change(), group.len());
         let database = |error: sqlx::Error| Fault::Database(error.into());
         writing.begun();
         sqlx::query("BEGIN IMMEDIATE").execute(&mut writing.conn).await.map_err(database)?;
@@ -161,6 +204,11 @@ impl Work {
         }
         sqlx::query("COMMIT").execute(&mut writing.conn).await.map_err(database)?;
         self.publish(writing, before);
+        let committed = writing.clock_now();
+        // The wall clock may have been set back meanwhile.
+        let took_s = seconds(writing.now, committed).max(0.0);
+        self.metrics.committed(commands, took_s, unix_s(committed));
+        writing.tally.tell(&self.metrics);
         Ok(())
     }
 
@@ -212,6 +260,7 @@ impl Work {
             match self.database.reopen(acknowledged).await {
                 Ok((conn, change)) => {
                     tracing::info!(change, "the database is open again");
+                    self.metrics.reopened();
                     self.committed.send_replace(change);
                     self.tours.send_replace(change);
                     return Ok(Writing::new(conn, change, clock, ids));
