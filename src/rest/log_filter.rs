@@ -13,14 +13,14 @@ use super::problem::Problem;
 use super::query::{Params, refusal};
 
 /// The longest body.
-pub(super) const BODY_BYTES: usize = 8_192;
+pub(super) const BODY_BYTES: usize = 65_536;
 
 /// What of the log is written
 #[derive(Debug, Deserialize, Serialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Filter {
     /// As `log.filter` in the configuration: a level, or levels of parts
-    #[schema(example = "info,voltour=debug", max_length = 4096)]
+    #[schema(example = "info,voltour=debug", max_length = 1024)]
     filter: String,
 }
 

@@ -6,7 +6,7 @@ use tracing_subscriber::filter::ParseError;
 use tracing_subscriber::{EnvFilter, Registry, reload};
 
 /// The longest filter.
-const MOST: usize = 4_096;
+const MOST: usize = 1_024;
 
 /// The filter that is in force; clones change the same.
 #[derive(Clone, Debug)]
