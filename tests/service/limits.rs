@@ -13,7 +13,7 @@ use voltour::proto::{
 };
 
 use crate::app::{PATIENCE, Settings, TestApp};
-use crate::calls::{OPEN, soon};
+use crate::calls::{MOMENT, OPEN, soon};
 use crate::field::{FIELD, departure, line, put, request, sensor};
 use crate::metrics::{metrics, value};
 use crate::time::{from_now, until};
@@ -218,4 +218,42 @@ async fn a_head_that_is_too_long_is_refused() {
     let mut answer = [0; 12];
     let refused = long.read_exact(&mut answer).is_err() || &answer == b"HTTP/1.1 431";
     assert!(refused, "{}", String::from_utf8_lossy(&answer));
+}
+
+#[tokio::test]
+async fn connections_beyond_the_limit_wait_until_one_ends() {
+    let app = TestApp::with(limited("connections = 1")).await;
+    let ask = b"GET /healthz HTTP/1.1\r\nHost: localhost\r\n\r\n";
+    let mut answer = [0; 15];
+    let mut first = connect(&app);
+    first.write_all(ask).unwrap();
+    first.read_exact(&mut answer).unwrap();
+    assert_eq!(&answer, b"HTTP/1.1 200 OK");
+    let mut second = connect(&app);
+    second.write_all(ask).unwrap();
+    second.set_read_timeout(Some(MOMENT)).unwrap();
+    assert!(second.read_exact(&mut answer).is_err(), "the first is still open");
+    drop(first);
+    second.set_read_timeout(Some(PATIENCE)).unwrap();
+    second.read_exact(&mut answer).unwrap();
+    assert_eq!(&answer, b"HTTP/1.1 200 OK");
+}
+
+#[tokio::test]
+async fn planning_leaves_a_core_to_the_requests_and_says_so() {
+    let mut app = TestApp::start().await;
+    assert!(!app.log().contains("planning.threads"), "one thread is never too many");
+    app.sigterm().await;
+    let config = std::fs::read_to_string(app.config_path()).unwrap();
+    let many = config.replace("[planning]\n", "[planning]\nthreads = 64\n");
+    std::fs::write(app.config_path(), many).unwrap();
+    app.launch().await;
+    let cores = std::thread::available_parallelism().unwrap().get();
+    if cores <= 64 {
+        assert!(
+            app.log().contains("planning.threads: one core is left to requests"),
+            "{}",
+            app.log()
+        );
+    }
 }
