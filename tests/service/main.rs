@@ -23,6 +23,7 @@ mod bad_input;
 mod batch;
 mod cancel;
 mod config;
+mod connections;
 mod crash;
 mod downtime;
 mod explanations;
