@@ -1,9 +1,9 @@
 #![no_main]
 
-#[allow(dead_code, unused_imports, reason = "the targets of the others")]
-#[path = "../../tests/fuzz/targets/mod.rs"]
-mod targets;
+// Alone, so that it is built without the service.
+#[path = "../../tests/fuzz/targets/scenario.rs"]
+mod scenario;
 
 libfuzzer_sys::fuzz_target!(|data: &[u8]| {
-    targets::scenario(data);
+    scenario::scenario(data);
 });

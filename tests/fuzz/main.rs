@@ -84,9 +84,3 @@ fn a_target_that_breaks_is_noticed_with_its_input() {
         targets::cursor(data)
     });
 }
-#[path = "../common/onnx.rs"]
-mod onnx;
-#[test]
-fn dump() {
-    std::fs::write("/tmp/pack-policy.onnx", onnx::Onnx::of("reward").bytes()).unwrap();
-}

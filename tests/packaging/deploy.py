@@ -147,6 +147,17 @@ def systemd(results, binary):
         results.check(f"systemd: {level.strip('→ ')}", code == 0, said)
 
 
+def alerts(results):
+    """Every alert has its place in docs/operations.md, and nothing else has one there."""
+    path = DEPLOY / "prometheus" / "alerts.yml"
+    if not path.is_file():
+        print("skip   there are no rules of alerts")
+        return
+    names = set(re.findall(r"^\s*- alert: (\w+)$", path.read_text(), re.M))
+    headings = set(re.findall(r"^### (Voltour\w+)$", (ROOT / "docs/operations.md").read_text(), re.M))
+    results.check("alerts: docs/operations.md says what to do about each", names == headings, names ^ headings)
+
+
 def main():
     binary = sys.argv[1]
     # Whatever is configured where this runs says nothing about these files.
@@ -156,6 +167,7 @@ def main():
     compose(results, image, binary)
     kubernetes(results, image, binary)
     systemd(results, binary)
+    alerts(results)
     return results.close()
 
 

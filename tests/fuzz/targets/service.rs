@@ -94,7 +94,7 @@ fn north() -> PutNetworkRequest {
     };
     let truck = ChargerType {
         name: "truck".to_owned(),
-        speed_mps: 1.0,
+        speed_mps: 5.0,
         transfer_w: 1.0,
         start_m: Some(at(0.0)),
         ..ChargerType::default()

@@ -17,12 +17,24 @@ const GROWTH_MIB: f64 = 4.0;
 /// What a life may reach beyond the highest of the first three.
 const DRIFT_MIB: f64 = 64.0;
 
-/// One life: resident memory in MiB.
+/// One life: what the process has for itself, in MiB.
 #[derive(Clone, Copy, Debug)]
 struct Life {
     peak: f64,
     third: f64,
     last: f64,
+}
+
+impl Life {
+    /// None where it was too short.
+    fn of(samples: &[f64]) -> Option<Self> {
+        let quarter = samples.len() / 4;
+        (quarter > 0).then(|| Self {
+            peak: samples.iter().copied().fold(0.0, f64::max),
+            third: mean(&samples[2 * quarter..3 * quarter]),
+            last: mean(&samples[samples.len() - quarter..]),
+        })
+    }
 }
 
 #[derive(Debug, Default)]
@@ -35,17 +47,15 @@ impl Memory {
     pub async fn sample(&mut self, pid: u32, killed: &Killed) {
         let mut samples = Vec::new();
         while !killed.struck() {
-            samples.extend(resident_mib(pid));
+            samples.extend(own_mib(pid));
             pause(EVERY_MS).await;
         }
-        let quarter = samples.len() / 4;
-        if quarter > 0 {
-            self.lives.push(Life {
-                peak: samples.iter().copied().fold(0.0, f64::max),
-                third: mean(&samples[2 * quarter..3 * quarter]),
-                last: mean(&samples[samples.len() - quarter..]),
-            });
-        }
+        self.add(&samples);
+    }
+
+    /// A life with these samples.
+    pub fn add(&mut self, samples: &[f64]) {
+        self.lives.extend(Life::of(samples));
     }
 
     /// The last life in words.
@@ -93,10 +103,10 @@ fn mean(samples: &[f64]) -> f64 {
     samples.iter().sum::<f64>() / samples.len() as f64
 }
 
-/// None once the process is gone.
-fn resident_mib(pid: u32) -> Option<f64> {
+/// Without the pages of the binary, which come and go as they are used. None once the process is gone.
+fn own_mib(pid: u32) -> Option<f64> {
     let status = fs::read_to_string(format!("/proc/{pid}/status")).ok()?;
-    let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:"))?;
+    let line = status.lines().find_map(|line| line.strip_prefix("RssAnon:"))?;
     let kib: f64 = line.trim().strip_suffix(" kB")?.parse().ok()?;
     Some(kib / 1024.0)
 }

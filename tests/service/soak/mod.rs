@@ -11,6 +11,7 @@
 mod history;
 mod memory;
 mod operator;
+mod tests;
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};

@@ -2,6 +2,7 @@
 
 use std::collections::{HashMap, HashSet};
 use std::fmt;
+use std::fs;
 use std::path::PathBuf;
 use std::process::Command;
 
@@ -27,7 +28,7 @@ pub struct Operator {
 
 impl Operator {
     pub fn new(folder: PathBuf) -> Self {
-        std::fs::create_dir(&folder).expect("a folder");
+        fs::create_dir(&folder).expect("a folder");
         Self { folder, checked: HashMap::new(), planned: HashMap::new(), pages: 0 }
     }
 
@@ -96,22 +97,24 @@ impl Operator {
     ) -> reqwest::Result<()> {
         let envelope = history.json(&format!("/v1/plans/{plan}")).await?;
         let scenario = history.text(&format!("/v1/plans/{plan}/scenario")).await?;
+        self.judge(plan, departure, &scenario, &envelope["plan"].to_string()).await;
+        Ok(())
+    }
+
+    /// Fails where `voltour check` refuses a plan, or where its departure has another.
+    pub async fn judge(&mut self, id: &str, departure: &str, scenario: &str, plan: &str) {
         let files = ["scenario.json", "plan.json"].map(|name| self.folder.join(name));
-        std::fs::write(&files[0], scenario).expect("the scenario is written");
-        std::fs::write(&files[1], envelope["plan"].to_string()).expect("the plan is written");
+        fs::write(&files[0], scenario).expect("the scenario is written");
+        fs::write(&files[1], plan).expect("the plan is written");
         let mut check = Command::new(env!("CARGO_BIN_EXE_voltour"));
         check.arg("check").args(&files);
         let checked = tokio::task::spawn_blocking(move || check.output());
         let checked = checked.await.expect("no panic").expect("voltour runs");
         let said = String::from_utf8_lossy(&checked.stdout);
-        assert_eq!(checked.status.code(), Some(0), "check refuses plan {plan}: {said}");
-        let before = self.planned.insert(departure.to_owned(), plan.to_owned());
-        assert_eq!(
-            before, None,
-            "departure {departure} is planned twice, the second time as {plan}"
-        );
-        self.checked.insert(plan.to_owned(), departure.to_owned());
-        Ok(())
+        assert_eq!(checked.status.code(), Some(0), "check refuses plan {id}: {said}");
+        let before = self.planned.insert(departure.to_owned(), id.to_owned());
+        assert_eq!(before, None, "departure {departure} is planned twice, the second time as {id}");
+        self.checked.insert(id.to_owned(), departure.to_owned());
     }
 
     /// A tour that a charger was given is of a plan that was checked.
