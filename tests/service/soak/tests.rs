@@ -59,7 +59,7 @@ fn memory_that_fills_and_stays_is_flat() {
 #[should_panic(expected = "in a quarter of a life")]
 fn memory_that_grows_within_lives_is_noticed() {
     let mut memory = Memory::default();
-    for _ in 0..3 {
+    for _ in 0..10 {
         memory.add(&(0..100).map(|i| 50.0 + f64::from(i) / 4.0).collect::<Vec<_>>());
     }
     memory.is_flat();
