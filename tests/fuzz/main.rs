@@ -1,5 +1,5 @@
 //! The fuzz targets for a moment each, from the seeds in `fuzz/seeds`, with changes that are drawn in the same way every
-//! time. `VOLTOUR_FUZZ_CASES` says how many; `fuzz/README.md` how to go on for longer.
+//! time. `VOLTOUR_FUZZ_S` says for how many seconds to go on with further ones; `fuzz/README.md` how to do better.
 
 #![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
 #![allow(clippy::disallowed_methods, missing_docs)]
@@ -10,6 +10,7 @@ mod targets;
 use std::env;
 use std::fs;
 use std::path::Path;
+use std::time::{Duration, Instant};
 
 use proptest::collection::vec;
 use proptest::test_runner::{Config, RngAlgorithm, TestError, TestRng, TestRunner};
@@ -28,26 +29,46 @@ fn seeds(target: &str) -> Vec<(String, Vec<u8>)> {
     seeds
 }
 
-/// Every seed is taken, but those that are named `bad-`; then so many cases of changed ones.
+/// Every seed is taken, but those that are named `bad-`; then so many cases of changed ones, again and again with other
+/// changes as long as there is time.
 fn run(target: &str, cases: u32, function: fn(&[u8]) -> bool) {
     let seeds = seeds(target);
     for (name, seed) in &seeds {
         assert_eq!(function(seed), !name.starts_with("bad-"), "{target}: the seed {name}");
     }
-    let set = env::var("VOLTOUR_FUZZ_CASES").ok();
-    let cases = set.map_or(cases, |text| text.parse().expect("a whole number"));
+    let seconds = env::var("VOLTOUR_FUZZ_S").ok();
+    let seconds = seconds.map_or(0, |text| text.parse().expect("a whole number"));
+    let end = Instant::now() + Duration::from_secs(seconds);
+    for round in 0_u64.. {
+        draw(target, cases, round, &seeds, function);
+        if Instant::now() >= end {
+            println!("{target}: {} cases", (round + 1) * u64::from(cases));
+            return;
+        }
+    }
+}
+
+fn draw(
+    target: &str,
+    cases: u32,
+    round: u64,
+    seeds: &[(String, Vec<u8>)],
+    function: fn(&[u8]) -> bool,
+) {
     let config = Config { cases, failure_persistence: None, ..Config::default() };
-    let rng = TestRng::deterministic_rng(RngAlgorithm::ChaCha);
+    let mut start = [0; 32];
+    start[..8].copy_from_slice(&round.to_le_bytes());
+    let rng = TestRng::from_seed(RngAlgorithm::ChaCha, &start);
     let mut runner = TestRunner::new_with_rng(config, rng);
-    let cases = (0..seeds.len(), vec(change(), 1..8));
-    let tried = runner.run(&cases, |(seed, changes)| {
+    let drawn = (0..seeds.len(), vec(change(), 1..8));
+    let tried = runner.run(&drawn, |(seed, changes)| {
         function(&applied(&seeds[seed].1, &changes));
         Ok(())
     });
     if let Err(TestError::Fail(why, (seed, changes))) = tried {
         let (name, seed) = &seeds[seed];
         let input = applied(seed, &changes);
-        panic!("{target}: {why}; from {name}: {}", input.escape_ascii());
+        panic!("{target}: {why}; round {round}, from {name}: {}", input.escape_ascii());
     }
 }
 
@@ -77,7 +98,7 @@ fn policy_files() {
 }
 
 #[test]
-#[should_panic(expected = "the last byte; from ")]
+#[should_panic(expected = "the last byte; round 0, from ")]
 fn a_target_that_breaks_is_noticed_with_its_input() {
     run("cursor", 500, |data| {
         assert!(!data.ends_with(b"\xff"), "the last byte");

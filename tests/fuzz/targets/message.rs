@@ -22,8 +22,7 @@ pub fn message(data: &[u8]) -> bool {
         Ok(()) => true,
         Err(status) => {
             assert!(is_callers_fault(&status), "{name}: {status:?}");
-            // What is not there was asked for well.
-            matches!(status.code(), Code::NotFound | Code::FailedPrecondition | Code::AlreadyExists)
+            was_read(&status)
         }
     }
 }
@@ -54,6 +53,12 @@ async fn call(
     }
     while answers.message().await?.is_some() {}
     Ok(())
+}
+
+/// What is not there, or not there in time, was asked for well.
+fn was_read(status: &Status) -> bool {
+    use Code::{AlreadyExists, DeadlineExceeded, FailedPrecondition, NotFound};
+    matches!(status.code(), NotFound | FailedPrecondition | AlreadyExists | DeadlineExceeded)
 }
 
 fn is_callers_fault(status: &Status) -> bool {
