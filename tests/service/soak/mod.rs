@@ -79,7 +79,9 @@ impl Soak {
 
     /// Everybody works for a while, then the process is killed; the next one is asked what it knows.
     async fn live(&mut self, about: Duration) {
-        self.app.put(if self.lives % 2 == 0 { crash::network() } else { coverage() }).await;
+        self.app
+            .put(if self.lives.is_multiple_of(2) { crash::network() } else { coverage() })
+            .await;
         let killed = Arc::new(Killed::default());
         let stations = self.stations.drain(..).map(|mut station| {
             let (requests, killed) = (self.app.requests(), killed.clone());
