@@ -138,9 +138,14 @@ impl TestApp {
 
     /// Asks the process to load its policies again.
     pub fn sighup(&self) {
-        let pid = self.child.as_ref().expect("a running server").id().to_string();
+        let pid = self.pid().to_string();
         let sent = Command::new("kill").args(["-HUP", &pid]).status().expect("kill runs");
         assert!(sent.success(), "SIGHUP was not sent");
+    }
+
+    /// The process's number.
+    pub fn pid(&self) -> u32 {
+        self.child.as_ref().expect("a running server").id()
     }
 
     /// The database file.

@@ -42,6 +42,7 @@ mod queue;
 mod reopen;
 mod rest;
 mod scenario;
+mod soak;
 mod stream;
 mod time_zero;
 mod traces;
