@@ -3,6 +3,7 @@
 
 mod cells;
 mod commands;
+mod copy;
 mod error;
 mod explanations;
 #[cfg(test)]
@@ -11,8 +12,11 @@ mod lock;
 mod networks;
 mod open;
 mod page;
+#[cfg(test)]
+mod power_loss;
 mod read;
 mod rows;
+mod schema;
 mod token_file;
 mod tokens;
 mod words;
@@ -24,6 +28,7 @@ pub use commands::{
     EndExplanation, NewPlan, NewStop, Overdue, Put, ReportVisit, StorePlan, Storing, Submit,
     TakeBack, UpdatePaths,
 };
+pub use copy::{Restored, Verified, backup, restore};
 pub use error::StoreError;
 pub use explanations::Explained;
 pub use open::Store;

@@ -10,7 +10,7 @@ use sqlx::{ConnectOptions, Connection, SqliteConnection};
 
 use super::lock::Lock;
 use super::writer::{self, Writer};
-use super::{Reads, StoreError};
+use super::{Reads, StoreError, schema};
 use crate::clock::Clock;
 
 /// Connections that read at once.
@@ -36,7 +36,7 @@ impl Store {
     pub async fn open(path: &Path, clock: Arc<dyn Clock>) -> Result<Self, StoreError> {
         let database = Database { path: path.to_owned(), _lock: Lock::take(path)? };
         let mut conn = database.connect().await?;
-        Self::migrate(&mut conn).await?;
+        schema::bring_up(&mut conn).await?;
         let change = last_change(&mut conn).await?;
         let pool = SqlitePoolOptions::new().max_connections(READERS).acquire_timeout(PATIENCE);
         let reads = Reads::new(pool.connect_with(options(path).read_only(true)).await?);
@@ -51,11 +51,6 @@ impl Store {
     pub(crate) async fn close(self) -> Result<(), StoreError> {
         self.task.stop.cancel();
         self.task.ended.await.unwrap_or_else(|error| Err(StoreError::Task(error.to_string())))
-    }
-
-    /// Brings the schema up to date.
-    pub(super) async fn migrate(conn: &mut SqliteConnection) -> Result<(), StoreError> {
-        Ok(sqlx::migrate!("migrations/sqlite").run(conn).await?)
     }
 }
 

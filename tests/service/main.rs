@@ -24,6 +24,7 @@ mod batch;
 mod config;
 mod crash;
 mod downtime;
+mod durability;
 mod explanations;
 mod get_next;
 mod idempotency;

@@ -1,0 +1,4 @@
+//! Power cuts: under a layer that loses whatever was not synced, everything acknowledged is there afterwards.
+
+mod cut;
+mod history;

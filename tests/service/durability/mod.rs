@@ -1,0 +1,3 @@
+//! What befalls a database and the disk that it lies on.
+
+mod backup;
