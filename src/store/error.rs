@@ -2,6 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
+use super::Trouble;
+
 /// What can go wrong below the service.
 #[derive(Debug, thiserror::Error)]
 pub enum StoreError {
@@ -37,7 +39,7 @@ pub enum StoreError {
         known: i64,
     },
     /// It was not always like this.
-    #[error("{} is damaged: {reason}", path.display())]
+    #[error("{} is damaged: {reason}; voltour restore puts a backup in the place of a database", path.display())]
     Damaged {
         /// The file.
         path: PathBuf,
@@ -86,12 +88,21 @@ pub enum StoreError {
     /// A task of the service ended as it should not.
     #[error("task: {0}")]
     Task(String),
+    /// The service was ended while nothing could be written.
+    #[error("{0}")]
+    Troubled(Trouble),
     /// The database does not hold what it held.
     #[error("verification: {0}")]
     Verification(String),
 }
 
 impl StoreError {
+    /// What a check finds is often several lines; this is one.
+    pub(super) fn damaged(path: &Path, reason: impl ToString) -> Self {
+        let reason = reason.to_string().split_whitespace().collect::<Vec<_>>().join(" ");
+        Self::Damaged { path: path.to_owned(), reason }
+    }
+
     pub(super) fn file(path: &Path, source: std::io::Error) -> Self {
         Self::File { path: path.to_owned(), source }
     }

@@ -19,14 +19,15 @@ mod rows;
 mod schema;
 mod token_file;
 mod tokens;
+mod trouble;
 mod words;
 mod writer;
 
 pub(crate) use cells::pack;
 pub use commands::{
     Announce, Attempt, Batch, BeginExplanation, Cancel, CloseBatch, Closing, Complete,
-    EndExplanation, NewPlan, NewStop, Overdue, Put, ReportVisit, StorePlan, Storing, Submit,
-    TakeBack, UpdatePaths,
+    EndExplanation, Forget, Forgotten, NewPlan, NewStop, Overdue, Put, ReportVisit, StorePlan,
+    Storing, Submit, TakeBack, UpdatePaths,
 };
 pub use copy::{Restored, Verified, backup, restore};
 pub use error::StoreError;
@@ -36,4 +37,5 @@ pub use page::{DepartureFilter, Listed, Page, PlanFilter, RequestFilter};
 pub use read::{PlanSummary, Reads, Waiting};
 pub use token_file::TokenFile;
 pub use tokens::{Keys, TokenCount};
+pub use trouble::Trouble;
 pub use writer::Writer;

@@ -142,6 +142,15 @@ impl TestApp {
         })
     }
 
+    /// Waits until the process ends by itself.
+    pub async fn ended(&mut self) -> ExitStatus {
+        let mut child = self.child.take().expect("a running server");
+        wait_exit(&mut child).await.unwrap_or_else(|| {
+            self.child = Some(child);
+            self.fail("does not end")
+        })
+    }
+
     /// Asks the process to load its policies again.
     pub fn sighup(&self) {
         let pid = self.child.as_ref().expect("a running server").id().to_string();

@@ -7,7 +7,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use libsqlite3_sys::{SQLITE_FULL, SQLITE_IOERR, SQLITE_OK};
+use libsqlite3_sys::{SQLITE_FULL, SQLITE_IOERR, SQLITE_IOERR_FSYNC, SQLITE_OK, SQLITE_READONLY};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
@@ -33,9 +33,29 @@ struct State {
     cut_after: Option<u64>,
     /// What was there when the power went.
     cut: Option<BTreeMap<PathBuf, Named>>,
-    /// Bytes that still fit.
-    room: Option<u64>,
+    fault: Option<Fault>,
     lying: bool,
+}
+
+/// What is wrong with a disk that has power.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Fault {
+    /// There is no room for anything.
+    Full,
+    /// Nothing may be written.
+    ReadOnly,
+    /// What was written cannot be synced, and nobody knows what of it is there.
+    Unsynced,
+}
+
+impl Fault {
+    fn code(self) -> c_int {
+        match self {
+            Self::Full => SQLITE_FULL,
+            Self::ReadOnly => SQLITE_READONLY,
+            Self::Unsynced => SQLITE_IOERR_FSYNC,
+        }
+    }
 }
 
 /// What goes by a name: now, and after a power cut for sure.
@@ -90,9 +110,9 @@ impl Disk {
         self.0.state().lying = true;
     }
 
-    /// Leaves room for so many bytes; without a number, as many as there will be.
-    pub fn leave(&self, bytes: Option<u64>) {
-        self.0.state().room = bytes;
+    /// Has a fault from now on; none heals it.
+    pub fn fail(&self, fault: Option<Fault>) {
+        self.0.state().fault = fault;
     }
 
     /// Writes what the power cut has left into another folder. Without a seed that is what was synced and
@@ -199,14 +219,10 @@ impl Shared {
             }
             return SQLITE_IOERR;
         }
-        let State { files, room, .. } = &mut *state;
-        let Some(image) = now(files, file) else { return SQLITE_IOERR };
-        if let Some(room) = room {
-            match (*room + image.length).checked_sub(image.after(&change)) {
-                Some(left) => *room = left,
-                None => return SQLITE_FULL,
-            }
+        if let Some(fault) = state.fault.filter(|fault| *fault != Fault::Unsynced) {
+            return fault.code();
         }
+        let Some(image) = now(&mut state.files, file) else { return SQLITE_IOERR };
         let done = really();
         if done == SQLITE_OK {
             image.change(change);
@@ -219,6 +235,9 @@ impl Shared {
         let mut state = self.state();
         if !state.powered() {
             return SQLITE_IOERR;
+        }
+        if state.fault == Some(Fault::Unsynced) {
+            return Fault::Unsynced.code();
         }
         if state.lying {
             return SQLITE_OK;

@@ -18,28 +18,17 @@ pub(crate) enum Change {
 pub(crate) struct Image {
     pub synced: Vec<u8>,
     pub unsynced: Vec<Change>,
-    /// Its length as it is seen now.
-    pub length: u64,
 }
 
 impl Image {
     /// Of a file that was there before.
     pub fn found(content: Vec<u8>) -> Self {
-        Self { length: content.len() as u64, synced: content, unsynced: Vec::new() }
+        Self { synced: content, unsynced: Vec::new() }
     }
 
     /// Takes note of a change.
     pub fn change(&mut self, change: Change) {
-        self.length = self.after(&change);
         self.unsynced.push(change);
-    }
-
-    /// Its length after a change.
-    pub fn after(&self, change: &Change) -> u64 {
-        match change {
-            Change::Write { at, bytes } => self.length.max(at + bytes.len() as u64),
-            Change::Truncate(length) => *length,
-        }
     }
 
     /// All that was written is there for good.
@@ -98,7 +87,7 @@ mod tests {
         image.sync();
         image.change(Change::Write { at: 2, bytes: vec![1; 2 * SECTOR] });
         image.change(Change::Truncate(1));
-        assert_eq!((image.survivor(None), image.length), (b"new".to_vec(), 1));
+        assert_eq!(image.survivor(None), b"new");
     }
 
     #[test]

@@ -6,10 +6,10 @@
 //! went since its folder was last synced may be there or not. [`Disk::survivors`] writes what is left into another
 //! folder. The same seed leaves the same.
 //!
-//! The disk can also be full, or lie about its syncs.
+//! The disk can also be full, read-only, or unable to sync ([`Fault`]), or lie about its syncs.
 
 mod disk;
 mod image;
 mod vfs;
 
-pub use disk::Disk;
+pub use disk::{Disk, Fault};

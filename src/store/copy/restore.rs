@@ -81,12 +81,8 @@ fn did(done: std::io::Result<()>, file: &Path) -> Result<bool, StoreError> {
 /// Names the file that was given, not the copy of it that was looked at.
 fn of(backup: &Path, error: StoreError) -> StoreError {
     match error {
-        StoreError::Damaged { reason, .. } => {
-            StoreError::Damaged { path: backup.to_owned(), reason }
-        }
-        StoreError::Database(error) => {
-            StoreError::Damaged { path: backup.to_owned(), reason: error.to_string() }
-        }
+        StoreError::Damaged { reason, .. } => StoreError::damaged(backup, reason),
+        StoreError::Database(error) => StoreError::damaged(backup, error),
         error => error,
     }
 }

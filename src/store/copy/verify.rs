@@ -34,7 +34,6 @@ pub(super) async fn verify(file: &Path) -> Result<Verified, StoreError> {
 }
 
 async fn whole(conn: &mut SqliteConnection, file: &Path) -> Result<Verified, StoreError> {
-    let damaged = |reason: String| StoreError::Damaged { path: file.to_owned(), reason };
     let schema = schema::version(conn).await?;
     if schema == 0 {
         return Err(StoreError::Foreign);
@@ -42,12 +41,13 @@ async fn whole(conn: &mut SqliteConnection, file: &Path) -> Result<Verified, Sto
     let verdict = "PRAGMA integrity_check(1)";
     let verdict: String = sqlx::query_scalar(verdict).fetch_one(&mut *conn).await?;
     if verdict != "ok" {
-        return Err(damaged(verdict));
+        return Err(StoreError::damaged(file, verdict));
     }
     let orphan = "SELECT \"table\" FROM pragma_foreign_key_check LIMIT 1";
     let orphan: Option<String> = sqlx::query_scalar(orphan).fetch_optional(&mut *conn).await?;
     if let Some(table) = orphan {
-        return Err(damaged(format!("a row of {table} refers to one that is not there")));
+        let reason = format!("a row of {table} refers to one that is not there");
+        return Err(StoreError::damaged(file, reason));
     }
     let counts = "SELECT (SELECT count(*) FROM requests), (SELECT count(*) FROM plans)";
     let (requests, plans) = sqlx::query_as(counts).fetch_one(conn).await?;
