@@ -32,7 +32,7 @@ const KEPT: [&str; 8] = [
      CASE WHEN state IN ('announced', 'planned') THEN '' ELSE state END FROM departures WHERE charger_id <> 'N' ORDER BY 1",
     "SELECT p.id, departure_id, revision, status, solver, objective, bound, hex(envelope), hex(scenario), created_us \
      FROM plans p WHERE charger_id <> 'N' ORDER BY 1",
-    "SELECT s.tour_id, position, request_id, sensor_id, x_m, y_m, arrive_us, depart_us, charge_j, outcome \
+    "SELECT s.tour_id, position, request_id, sensor_id, x_m, y_m, arrive_us, depart_us, s.charge_j, outcome \
      FROM stops s JOIN tours t ON t.id = s.tour_id WHERE t.charger_id <> 'N' ORDER BY 1, 2",
     "SELECT id, tour_id, client_id, hex(fingerprint), sensor_id, outcome, arrived_us, note, served, received_us \
      FROM visits ORDER BY 1",
