@@ -87,3 +87,7 @@ bench:
 # 200 trials of kill -9 at random moments (CI runs fewer).
 crash trials="200":
     VOLTOUR_CRASH_TRIALS={{trials}} cargo test --release --locked --test service crash -- --nocapture
+
+# 1,000 power cuts at random moments (CI makes fewer).
+power trials="1000":
+    VOLTOUR_POWER_TRIALS={{trials}} cargo test --workspace --locked --lib power_loss

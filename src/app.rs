@@ -19,6 +19,7 @@ use crate::listen::Counted;
 use crate::metrics::Metrics;
 use crate::policy::{self, Shelf};
 use crate::rest::{self, Guard, RestState};
+use crate::retention::Retention;
 use crate::scheduler::{self, Running};
 use crate::store::{Store, StoreError};
 use crate::telemetry::LogFilter;
@@ -136,6 +137,7 @@ impl App {
         settings.planner_threads = planner_threads(settings.planner_threads);
         let (reads, writer) = (store.reads.clone(), store.writer.clone());
         let metrics = Metrics::new(clock.clone(), writer.metrics());
+        let retained = writer.clone();
         let (shelf, counted, scheduled) = (policies.clone(), metrics.clone(), cancel.clone());
         let starting = scheduler::start(store, clock.clone(), settings, shelf, counted, scheduled);
         let (handle, running) = starting.await?;
@@ -181,6 +183,10 @@ impl App {
             }),
         ];
         let soft = lifecycle.soft.clone();
+        if let Some(history) = config.retention.history {
+            let retention = Retention::new(retained, clock.clone(), history.0, soft.clone());
+            tokio::spawn(retention.run());
+        }
         let counted = metrics.clone();
         let explainer = Explainer::new(reads, writer, clock, config.explainer(), counted, soft);
         Ok(Self {

@@ -54,6 +54,8 @@ Configuration, as TOML (these are the defaults):
   # bootstrap_token_file = \"token\"  # an admin's token for all networks
   [store]
   path = \"voltour.db\"          # made where there is none
+  [retention]
+  history = \"90d\"              # left out, everything is kept for good
   [planning]
   solver = \"auto\"
   budget = \"2s\"                # time that the search for a tour may take

@@ -13,6 +13,7 @@ use super::print::is_secret;
 use super::{Config, Setting, Span};
 use crate::explainer;
 use crate::grpc;
+use crate::retention;
 use crate::scheduler;
 
 /// Every key that is wrong, each with its value and the rule.
@@ -137,6 +138,10 @@ impl Config {
         let folder = self.policy.folder.as_deref();
         let is_named = folder.is_none_or(|folder| !folder.as_os_str().is_empty());
         errors.check(is_named, "policy.folder", "\"\"", "must name a folder");
+        if let Some(history) = self.retention.history {
+            let (least, most) = (Span(retention::SHORTEST), Span::seconds(36_500 * 86_400));
+            errors.within("retention.history", history, least, most);
+        }
         self.check_planning(&mut errors);
         self.check_limits(&mut errors);
         self.check_telemetry(&mut errors);
@@ -262,6 +267,7 @@ mod tests {
             ("[planning]\nsolver = \"magic\"", "planning.solver", "magic"),
             ("[planning]\nexplanation_budget = \"1h\"", "explanation_budget: 1h", "from 0s to 10m"),
             ("[planning]\nthreads = 0", "planning.threads: 0", "from 1 to 64"),
+            ("[retention]\nhistory = \"1d\"", "retention.history: 24h", "from 168h to"),
             ("[policy]\nfolder = \"\"", "policy.folder", "must name a folder"),
             ("[tls]\nkey_file = \"k.pem\"", "tls.certificate_file", "tls.key_file"),
             ("[tls]\nclient_ca_file = \"c.pem\"", "tls.client_ca_file", "tls.certificate_file"),

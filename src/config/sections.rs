@@ -22,6 +22,8 @@ pub struct Config {
     pub access: Access,
     /// `[store]`
     pub store: Store,
+    /// `[retention]`
+    pub retention: Retention,
     /// `[planning]`
     pub planning: Planning,
     /// `[policy]`
@@ -82,6 +84,14 @@ pub struct Access {
 pub struct Store {
     /// Its file; made where there is none.
     pub path: PathBuf,
+}
+
+/// What is deleted, and when.
+#[derive(Clone, Debug, PartialEq, Default, Deserialize, Serialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Retention {
+    /// Requests and departures, with their plans, tours and visits, go so long after they ended; never if none.
+    pub history: Option<Span>,
 }
 
 /// How tours are planned.

@@ -9,7 +9,7 @@ use tracing::Instrument;
 use voltour_solver::explain::explain;
 
 use super::work::{Done, Explain, Work};
-use crate::clock::{Clock, plus};
+use crate::clock::Clock;
 use crate::domain::{PlanId, Refusal};
 use crate::metrics::{ExplanationOutcome, Metrics};
 use crate::store::{Attempt, BeginExplanation, EndExplanation, Reads, StoreError, Writer};
@@ -81,7 +81,7 @@ impl Explainer {
                     tracing::error!(%error, "explanations cannot be read or written");
                     tokio::select! {
                         () = self.cancel.cancelled() => return,
-                        () = self.clock.sleep_until(plus(self.clock.now(), PAUSE)) => {}
+                        () = self.clock.pause(PAUSE) => {}
                     }
                 }
             }

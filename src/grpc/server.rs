@@ -3,7 +3,8 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use tokio::sync::Semaphore;
+use tokio::sync::{Semaphore, watch};
+use tokio_util::sync::CancellationToken;
 use tonic::server::NamedService;
 use tonic_health::ServingStatus;
 use tonic_health::server::HealthReporter;
@@ -19,6 +20,7 @@ use crate::proto::departure_service_server::DepartureServiceServer;
 use crate::proto::network_service_server::NetworkServiceServer;
 use crate::proto::request_service_server::RequestServiceServer;
 use crate::proto::tour_service_server::TourServiceServer;
+use crate::store::Trouble;
 
 /// Bytes of a call's headers.
 const HEADER_BYTES: u32 = 16 * 1024;
@@ -59,7 +61,8 @@ impl Server {
         let (limits, stop, calls) = (edge.limits, edge.stop.clone(), edge.calls.clone());
         let room = Arc::new(Semaphore::new(limits.all_calls));
         let (reporter, health) = tonic_health::server::health_reporter();
-        report(&reporter, ServingStatus::Serving).await;
+        let able =
+            tokio::spawn(able(reporter.clone(), edge.handle.reads().trouble(), stop.clone()));
         let reflection = || {
             tonic_reflection::server::Builder::configure()
                 .register_encoded_file_descriptor_set(DESCRIPTORS)
@@ -74,6 +77,8 @@ impl Server {
         }
         let stopping = async move {
             stop.cancelled().await;
+            // It has the last word no more.
+            let _ = able.await;
             report(&reporter, ServingStatus::NotServing).await;
             // Ends the watches of the health service, which would keep their connections open.
             close(reporter).await;
@@ -114,6 +119,25 @@ const SERVICES: [&str; 5] = [
     DepartureServiceServer::<Edge>::NAME,
     TourServiceServer::<Edge>::NAME,
 ];
+
+/// Says that the services serve for as long as something can be written.
+async fn able(
+    reporter: HealthReporter,
+    mut trouble: watch::Receiver<Option<Trouble>>,
+    stop: CancellationToken,
+) {
+    loop {
+        let status = match *trouble.borrow_and_update() {
+            None => ServingStatus::Serving,
+            Some(_) => ServingStatus::NotServing,
+        };
+        report(&reporter, status).await;
+        tokio::select! {
+            () = stop.cancelled() => return,
+            changed = trouble.changed() => if changed.is_err() { return },
+        }
+    }
+}
 
 async fn report(reporter: &HealthReporter, status: ServingStatus) {
     for service in SERVICES {

@@ -7,7 +7,7 @@ use tonic_types::{ErrorDetails, StatusExt};
 
 use crate::domain::{FieldViolation, Refusal};
 use crate::proto;
-use crate::store::StoreError;
+use crate::store::{StoreError, Trouble};
 
 /// Details travel in the trailers, of which clients take 16 KiB, in base64: so much of them may be
 /// violations.
@@ -98,8 +98,10 @@ pub(super) fn read_failed(error: StoreError) -> Refusal {
     match error {
         StoreError::Row { .. } => Refusal::Internal(error.to_string()),
         error => {
+            let trouble = Trouble::of(&error);
             tracing::warn!(%error, "a read failed");
-            Refusal::Unavailable("the database cannot be read now; try again".to_owned())
+            let why = trouble.map(|trouble| format!(" ({trouble})")).unwrap_or_default();
+            Refusal::Unavailable(format!("the database cannot be read now{why}; try again"))
         }
     }
 }

@@ -20,6 +20,8 @@ use crate::policy::{Policies, Shelf};
 use crate::store::Store;
 use crate::store::fixture::{Bench, asks, call, leaves};
 
+mod clock;
+
 /// A running scheduler whose searches end at once.
 struct Service {
     _dir: tempfile::TempDir,
@@ -224,8 +226,17 @@ impl Clock for Slow {
         self.0.now()
     }
 
+    fn ran(&self) -> Duration {
+        self.0.advance(Duration::from_secs(1));
+        self.0.ran()
+    }
+
     fn sleep_until(&self, time: Timestamp) -> Sleep<'_> {
         self.0.sleep_until(time)
+    }
+
+    fn pause(&self, length: Duration) -> Sleep<'_> {
+        self.0.pause(length)
     }
 }
 

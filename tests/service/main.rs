@@ -26,6 +26,7 @@ mod config;
 mod connections;
 mod crash;
 mod downtime;
+mod durability;
 mod explanations;
 mod get_next;
 mod idempotency;

@@ -17,6 +17,7 @@ use voltour::proto::{
     ChargerType, NetworkSpec, Objective, Place, Point, PutNetworkRequest, Sensor, Trajectory,
     Waypoint, place,
 };
+use voltour::telemetry::LogFilter;
 
 /// What hangs so long is a defect; the time is long because the machine may be busy.
 pub const PATIENCE: Duration = Duration::from_secs(20);
@@ -58,7 +59,9 @@ impl Service {
         let now: Timestamp = "2026-01-01T00:00:00Z".parse().expect("a time");
         let clock = Arc::new(ManualClock::new(now));
         let (grpc, rest) = runtime.block_on(async {
-            let app = App::start(&config, clock, Lifecycle::default()).await.expect("a service");
+            let app = App::start(&config, clock, Lifecycle::default(), LogFilter::default())
+                .await
+                .expect("a service");
             let addresses = (format!("http://{}", app.grpc), format!("http://{}", app.rest));
             tokio::spawn(app.run());
             addresses
