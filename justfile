@@ -7,7 +7,7 @@ python := justfile_directory() / "target/python"
 check: checks test
 
 # All of it but the tests in Rust.
-checks: fmt lint layers docs client contract onnx
+checks: fmt lint layers docs client contract onnx packaging (soak "120" "20")
 
 # Formatting.
 fmt:
@@ -57,10 +57,28 @@ onnx: python build
     target/debug/examples/onnx_values target/onnx
     {{python}}/bin/python tests/onnx/agree.py target/onnx
 
-# The Python that the client test and the ONNX test run in.
+# The files of deploy/ against their schemas, the Dockerfile and the binary; the image's last stage with this binary.
+packaging: python build
+    {{python}}/bin/python tests/packaging/deploy.py target/debug/voltour
+    {{python}}/bin/python tests/packaging/image.py target/debug/voltour
+
+# All steps of the Dockerfile without a container engine, the release build included.
+image: python
+    {{python}}/bin/python tests/packaging/image.py
+
+# Four base stations, two chargers, an operator, and kill -9 again and again: half an hour, or two minutes in CI.
+soak seconds="1800" life="60":
+    VOLTOUR_SOAK_S={{seconds}} VOLTOUR_SOAK_KILL_S={{life}} cargo test --workspace --locked --test service soak -- --ignored --nocapture
+
+# A fuzz target for ten minutes (scenario, message, query, cursor, policy); `cargo test` runs each for a moment. See fuzz/README.md.
+fuzz target seconds="600":
+    mkdir -p fuzz/corpus/{{target}}
+    cd fuzz && cargo +nightly fuzz run --sanitizer none {{target}} corpus/{{target}} seeds/{{target}} -- -max_total_time={{seconds}} -max_len=8192
+
+# The Python that the tests in Python run in.
 python:
     test -x {{python}}/bin/python || python3 -m venv {{python}}
-    {{python}}/bin/pip install --quiet --disable-pip-version-check --requirement tests/client/requirements.txt --requirement tests/onnx/requirements.txt
+    {{python}}/bin/python -m pip install --quiet --disable-pip-version-check --requirement tests/client/requirements.txt --requirement tests/onnx/requirements.txt --requirement tests/packaging/requirements.txt
 
 # The benchmarks, each printing a ratio against its reference.
 bench:
@@ -69,3 +87,7 @@ bench:
 # 200 trials of kill -9 at random moments (CI runs fewer).
 crash trials="200":
     VOLTOUR_CRASH_TRIALS={{trials}} cargo test --release --locked --test service crash -- --nocapture
+
+# 1,000 power cuts at random moments (CI makes fewer).
+power trials="1000":
+    VOLTOUR_POWER_TRIALS={{trials}} cargo test --workspace --locked --lib power_loss

@@ -19,8 +19,10 @@ use crate::listen::Counted;
 use crate::metrics::Metrics;
 use crate::policy::{self, Shelf};
 use crate::rest::{self, Guard, RestState};
+use crate::retention::Retention;
 use crate::scheduler::{self, Running};
 use crate::store::{Store, StoreError};
+use crate::telemetry::LogFilter;
 use crate::tls::{Tls, TlsError};
 
 /// Why the service did not start, or did not end well.
@@ -71,9 +73,6 @@ pub enum AppError {
     /// The gRPC server failed.
     #[error("grpc: {0}")]
     Grpc(#[from] ServerError),
-    /// The REST server failed.
-    #[error("rest: {0}")]
-    Rest(io::Error),
     /// A task died.
     #[error("a server died: {0}")]
     Died(#[from] tokio::task::JoinError),
@@ -117,6 +116,7 @@ impl App {
         config: &Config,
         clock: Arc<dyn Clock>,
         lifecycle: Lifecycle,
+        log: LogFilter,
     ) -> Result<Self, AppError> {
         let (bootstrap, tls) = (config.bootstrap()?, Tls::open(&config.tls)?);
         let folder = config.policy.folder.clone();
@@ -133,9 +133,11 @@ impl App {
             }
         };
         let cancel = CancellationToken::new();
-        let settings = config.settings();
-        let metrics = Metrics::default();
+        let mut settings = config.settings();
+        settings.planner_threads = planner_threads(settings.planner_threads);
         let (reads, writer) = (store.reads.clone(), store.writer.clone());
+        let metrics = Metrics::new(clock.clone(), writer.metrics());
+        let retained = writer.clone();
         let (shelf, counted, scheduled) = (policies.clone(), metrics.clone(), cancel.clone());
         let starting = scheduler::start(store, clock.clone(), settings, shelf, counted, scheduled);
         let (handle, running) = starting.await?;
@@ -155,18 +157,36 @@ impl App {
         let soft = lifecycle.soft.clone();
         let acceptor = |protocol| tls.as_ref().map(|tls| tls.acceptor(protocol));
         let counted = |listener, protocol| {
-            Counted::new(listener, config.limits.connections, acceptor(protocol))
+            let edge = if protocol == "h2" { "grpc" } else { "rest" };
+            let open = metrics.calls.connections(edge);
+            let limits = &config.limits;
+            let slow = limits.slow_client.0;
+            Counted::new(listener, limits.connections, slow, open, acceptor(protocol))
         };
         let (grpc, rest) = (counted(grpc, "h2"), counted(rest, "http/1.1"));
-        let edge = Edge::new(handle.clone(), gate.clone(), config.grpc_limits(), soft.clone());
-        let guard = Guard::new(gate.clone(), rest_at.ip().is_loopback(), &config.rest.hosts);
-        let state = RestState::new(handle.reads().clone(), metrics.clone(), soft.clone());
+        let (limits, calls) = (config.grpc_limits(), metrics.calls.clone());
+        let edge = Edge::new(handle.clone(), gate.clone(), limits, calls, soft.clone());
+        let guard = Guard::new(
+            gate.clone(),
+            rest_at.ip().is_loopback(),
+            &config.rest.hosts,
+            config.limits.rest_calls,
+        );
+        let state = RestState::new(handle.reads().clone(), metrics.clone(), log, soft.clone());
         tokio::spawn(gate.follow(soft.clone()));
+        let slow = config.limits.slow_client.0;
         let servers = [
             tokio::spawn(async move { Ok(Server::new(edge, grpc).run().await?) }),
-            tokio::spawn(serve_rest(rest, rest::router(state, guard), soft)),
+            tokio::spawn(async move {
+                rest::serve(rest, rest::router(state, guard), slow, soft).await;
+                Ok(())
+            }),
         ];
         let soft = lifecycle.soft.clone();
+        if let Some(history) = config.retention.history {
+            let retention = Retention::new(retained, clock.clone(), history.0, soft.clone());
+            tokio::spawn(retention.run());
+        }
         let counted = metrics.clone();
         let explainer = Explainer::new(reads, writer, clock, config.explainer(), counted, soft);
         Ok(Self {
@@ -197,7 +217,7 @@ impl App {
     pub fn reload_on_hangup(&self) -> io::Result<()> {
         let (metrics, soft) = (self.metrics.clone(), self.lifecycle.soft.clone());
         policy::on_hangup(self.policies.clone(), soft, move |_, became| {
-            metrics.policy_reloaded(became);
+            metrics.planning.policy_reloaded(became);
         })
     }
 
@@ -247,6 +267,16 @@ async fn watched(
     ended?
 }
 
+/// As many as are configured, but for one core, which is left to the requests.
+fn planner_threads(configured: usize) -> usize {
+    let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+    let most = cores.saturating_sub(1).max(1);
+    if configured > most {
+        tracing::warn!(configured, most, cores, "planning.threads: one core is left to requests");
+    }
+    configured.min(most)
+}
+
 async fn listen(
     key: &'static str,
     address: SocketAddr,
@@ -283,15 +313,4 @@ async fn guarded(
         tracing::info!("there is no token: whoever reaches the service may do everything");
     }
     Ok(gate)
-}
-
-async fn serve_rest(
-    listener: Counted,
-    routes: axum::Router,
-    stop: CancellationToken,
-) -> Result<(), AppError> {
-    axum::serve(listener, routes)
-        .with_graceful_shutdown(stop.cancelled_owned())
-        .await
-        .map_err(AppError::Rest)
 }

@@ -4,7 +4,7 @@
 use std::fmt;
 use std::future::Future;
 use std::pin::Pin;
-use std::sync::Mutex;
+use std::sync::{Mutex, OnceLock, PoisonError};
 use std::time::{Duration, Instant};
 
 use jiff::Timestamp;
@@ -20,6 +20,10 @@ pub trait Clock: fmt::Debug + Send + Sync + 'static {
     fn now(&self) -> Timestamp;
     /// Waits until `now` is `at` or later.
     fn sleep_until(&self, at: Timestamp) -> Sleep<'_>;
+    /// How long it has run. It is never set, so that lengths are measured with it.
+    fn ran(&self) -> Duration;
+    /// Waits for so long, wherever the clock is set meanwhile: before something is tried again.
+    fn pause(&self, length: Duration) -> Sleep<'_>;
 }
 
 /// A wall clock may be set while someone sleeps; nobody sleeps longer than this without a look.
@@ -35,12 +39,22 @@ impl Clock for SystemClock {
         whole(Timestamp::now())
     }
 
+    #[expect(clippy::disallowed_methods, reason = "the one clock that is the machine's")]
+    fn ran(&self) -> Duration {
+        static SINCE: OnceLock<Instant> = OnceLock::new();
+        SINCE.get_or_init(Instant::now).elapsed()
+    }
+
     fn sleep_until(&self, at: Timestamp) -> Sleep<'_> {
         Box::pin(async move {
             while let Some(left) = left(self.now(), at) {
                 tokio::time::sleep(left.min(LONGEST_SLEEP)).await;
             }
         })
+    }
+
+    fn pause(&self, length: Duration) -> Sleep<'_> {
+        Box::pin(tokio::time::sleep(length))
     }
 }
 
@@ -63,7 +77,11 @@ impl ScaledClock {
 
 impl Clock for ScaledClock {
     fn now(&self) -> Timestamp {
-        plus(self.base, self.since.elapsed().mul_f64(self.factor))
+        plus(self.base, self.ran())
+    }
+
+    fn ran(&self) -> Duration {
+        self.since.elapsed().mul_f64(self.factor)
     }
 
     fn sleep_until(&self, at: Timestamp) -> Sleep<'_> {
@@ -74,40 +92,57 @@ impl Clock for ScaledClock {
             }
         })
     }
+
+    fn pause(&self, length: Duration) -> Sleep<'_> {
+        Box::pin(tokio::time::sleep(length.div_f64(self.factor)))
+    }
 }
 
-/// A clock that stands still until it is set; for tests.
+/// A clock that stands still; for tests.
 #[derive(Debug)]
-pub struct ManualClock(watch::Sender<Timestamp>);
+pub struct ManualClock {
+    shows: watch::Sender<Timestamp>,
+    ran: Mutex<Duration>,
+}
 
 impl ManualClock {
     /// A clock that shows `now`.
     pub fn new(now: Timestamp) -> Self {
-        Self(watch::Sender::new(whole(now)))
+        Self { shows: watch::Sender::new(whole(now)), ran: Mutex::default() }
     }
 
-    /// Sets it forward.
+    /// Lets time pass.
     pub fn advance(&self, by: Duration) {
-        self.0.send_modify(|now| *now = plus(*now, by));
+        *self.ran.lock().unwrap_or_else(PoisonError::into_inner) += by;
+        self.shows.send_modify(|now| *now = plus(*now, by));
     }
 
-    /// Sets it.
+    /// Sets it, forward or back; no time passes.
     pub fn set(&self, now: Timestamp) {
-        self.0.send_replace(whole(now));
+        self.shows.send_replace(whole(now));
     }
 }
 
 impl Clock for ManualClock {
     fn now(&self) -> Timestamp {
-        *self.0.borrow()
+        *self.shows.borrow()
+    }
+
+    fn ran(&self) -> Duration {
+        *self.ran.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     fn sleep_until(&self, at: Timestamp) -> Sleep<'_> {
-        let mut now = self.0.subscribe();
+        let mut now = self.shows.subscribe();
         Box::pin(async move {
             // Only fails where the clock is gone, and it is borrowed.
             let _ = now.wait_for(|now| *now >= at).await;
         })
+    }
+
+    /// Pauses are no part of what such a clock shows: they are short, and pass by themselves.
+    fn pause(&self, length: Duration) -> Sleep<'_> {
+        Box::pin(tokio::time::sleep(length))
     }
 }
 
@@ -116,9 +151,22 @@ impl Clock for ManualClock {
 pub struct Ids(Mutex<ContextV7>);
 
 impl Ids {
+    /// Goes on after an id that was made before, whatever the clock shows by now.
+    pub fn go_on_after(&self, last: Uuid) {
+        if let Some(at) = last.get_timestamp() {
+            // Of a millisecond later, for within one the counter begins anywhere.
+            let nanos = u64::from(at.to_unix().1) + 1_000_000;
+            let (seconds, nanos) = (at.to_unix().0 + nanos / 1_000_000_000, nanos % 1_000_000_000);
+            let nanos = u32::try_from(nanos).unwrap_or_default();
+            let context = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+            // An id that nobody gets: it is made for the context to remember its time.
+            let _ = Uuid::new_v7(uuid::Timestamp::from_unix(&*context, seconds, nanos));
+        }
+    }
+
     /// The next id, made at `now`.
     pub fn next(&self, now: Timestamp) -> Uuid {
-        let context = self.0.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+        let context = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         let since = now.as_microsecond().max(0).unsigned_abs();
         let nanos = u32::try_from(since % 1_000_000 * 1_000).unwrap_or_default();
         Uuid::new_v7(uuid::Timestamp::from_unix(&*context, since / 1_000_000, nanos))
@@ -141,6 +189,11 @@ pub fn seconds(from: Timestamp, to: Timestamp) -> f64 {
     (to.as_microsecond() - from.as_microsecond()) as f64 / 1e6
 }
 
+/// Seconds since the Unix epoch.
+pub fn unix_s(at: Timestamp) -> f64 {
+    seconds(Timestamp::UNIX_EPOCH, at)
+}
+
 /// Whole microseconds: what the database keeps.
 pub fn whole(at: Timestamp) -> Timestamp {
     Timestamp::from_microsecond(at.as_microsecond()).unwrap_or(at)
@@ -161,6 +214,16 @@ mod tests {
         let made: Vec<Uuid> =
             [now, now, now, minus(now, Duration::from_secs(9)), now].map(|at| ids.next(at)).into();
         assert!(made.windows(2).all(|pair| pair[0] < pair[1]), "{made:?}");
+    }
+
+    #[test]
+    fn ids_rise_after_a_restart_with_a_clock_that_was_set_back() {
+        let now = SystemClock.now();
+        let last = Ids::default().next(now);
+        let ids = Ids::default();
+        ids.go_on_after(last);
+        let day = minus(now, Duration::from_secs(86_400));
+        assert!(last < ids.next(day) && ids.next(day) < ids.next(now));
     }
 
     #[tokio::test]

@@ -17,6 +17,7 @@ pub mod metrics;
 pub mod planner;
 pub mod policy;
 pub mod rest;
+pub mod retention;
 pub mod scheduler;
 pub mod store;
 pub mod svg;

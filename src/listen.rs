@@ -1,5 +1,5 @@
 //! Listening: with TLS or without, and no more connections at once than allowed; further ones wait in
-//! the system's queue.
+//! the system's queue. A client that does not take what is sent to it loses its connection.
 
 use std::fmt;
 use std::io;
@@ -14,10 +14,13 @@ use tokio::io::{AsyncRead, AsyncWrite, ReadBuf};
 use tokio::net::{TcpListener, TcpStream};
 use tokio::sync::{OwnedSemaphorePermit, Semaphore};
 use tokio::task::JoinSet;
+use tokio::time::Sleep;
 use tokio_rustls::TlsAcceptor;
 use tokio_rustls::server::TlsStream;
 use tokio_util::either::Either;
 use tonic::transport::server::{Connected, TcpConnectInfo};
+
+use crate::metrics::{Entered, Level};
 
 /// After a failed accept (out of file descriptors, say) so long is waited for some to be closed.
 const AGAIN: Duration = Duration::from_millis(100);
@@ -29,6 +32,8 @@ const HANDSHAKE: Duration = Duration::from_secs(10);
 pub struct Counted {
     listener: TcpListener,
     room: Arc<Semaphore>,
+    patience: Duration,
+    open: Level,
     tls: Option<TlsAcceptor>,
     /// Each holds its place among the connections: there are no more of them than of these.
     handshakes: JoinSet<Option<(Connection, SocketAddr)>>,
@@ -41,13 +46,21 @@ impl fmt::Debug for Counted {
 }
 
 impl Counted {
-    /// At most so many connections at once, with TLS if there is an acceptor.
-    pub fn new(listener: TcpListener, connections: usize, tls: Option<TlsAcceptor>) -> Self {
+    /// At most so many connections at once, with TLS if there is an acceptor. A client has `patience` to take what is
+    /// sent to it.
+    pub fn new(
+        listener: TcpListener,
+        connections: usize,
+        patience: Duration,
+        open: Level,
+        tls: Option<TlsAcceptor>,
+    ) -> Self {
         let room = Arc::new(Semaphore::new(connections));
-        Self { listener, room, tls, handshakes: JoinSet::new() }
+        Self { listener, room, patience, open, tls, handshakes: JoinSet::new() }
     }
 
-    async fn next(&mut self) -> (Connection, SocketAddr) {
+    /// The next connection.
+    pub async fn next(&mut self) -> (Connection, SocketAddr) {
         loop {
             let (stream, permit, peer) = tokio::select! {
                 accepted = accept(&self.listener, &self.room) => accepted,
@@ -56,15 +69,17 @@ impl Counted {
                     _ => continue,
                 },
             };
+            let place = Place { _permit: permit, _open: self.open.enter() };
             let Some(tls) = self.tls.clone() else {
-                return (Connection { stream: Either::Left(stream), _permit: permit }, peer);
+                return (Connection::new(Either::Left(stream), self.patience, place), peer);
             };
+            let patience = self.patience;
             // Beside the others: who is slow at it holds up nobody else.
             self.handshakes.spawn(async move {
                 match tokio::time::timeout(HANDSHAKE, tls.accept(stream)).await {
                     Ok(Ok(stream)) => {
                         let stream = Either::Right(Box::new(stream));
-                        return Some((Connection { stream, _permit: permit }, peer));
+                        return Some((Connection::new(stream, patience, place), peer));
                     }
                     Ok(Err(error)) => tracing::debug!(%peer, %error, "no TLS with a client"),
                     Err(_) => tracing::debug!(%peer, "no TLS with a client in time"),
@@ -104,23 +119,41 @@ pub fn incoming(listener: Counted) -> impl Stream<Item = io::Result<Connection>>
     })
 }
 
-impl axum::serve::Listener for Counted {
-    type Io = Connection;
-    type Addr = SocketAddr;
+/// A connection that is counted until it is dropped.
+pub struct Connection {
+    stream: Transport,
+    patience: Duration,
+    /// Since when the client takes nothing more.
+    stalled: Option<Pin<Box<Sleep>>>,
+    _place: Place,
+}
 
-    async fn accept(&mut self) -> (Connection, SocketAddr) {
-        self.next().await
+type Transport = Either<TcpStream, Box<TlsStream<TcpStream>>>;
+
+impl Connection {
+    fn new(stream: Transport, patience: Duration, place: Place) -> Self {
+        Self { stream, patience, stalled: None, _place: place }
     }
 
-    fn local_addr(&self) -> io::Result<SocketAddr> {
-        self.listener.local_addr()
+    /// What was sent, unless the client has not taken it for too long.
+    fn taken<T>(&mut self, cx: &mut Context<'_>, sent: Poll<io::Result<T>>) -> Poll<io::Result<T>> {
+        if sent.is_ready() {
+            self.stalled = None;
+            return sent;
+        }
+        let patience = self.patience;
+        let stalled = self.stalled.get_or_insert_with(|| Box::pin(tokio::time::sleep(patience)));
+        match stalled.as_mut().poll(cx) {
+            Poll::Pending => Poll::Pending,
+            Poll::Ready(()) => Poll::Ready(Err(io::ErrorKind::TimedOut.into())),
+        }
     }
 }
 
-/// A connection that is counted until it is dropped.
-pub struct Connection {
-    stream: Either<TcpStream, Box<TlsStream<TcpStream>>>,
+/// A place among the connections.
+struct Place {
     _permit: Option<OwnedSemaphorePermit>,
+    _open: Entered,
 }
 
 impl fmt::Debug for Connection {
@@ -156,7 +189,8 @@ impl AsyncWrite for Connection {
         cx: &mut Context<'_>,
         bytes: &[u8],
     ) -> Poll<io::Result<usize>> {
-        Pin::new(&mut self.stream).poll_write(cx, bytes)
+        let sent = Pin::new(&mut self.stream).poll_write(cx, bytes);
+        self.taken(cx, sent)
     }
 
     fn poll_write_vectored(
@@ -164,7 +198,8 @@ impl AsyncWrite for Connection {
         cx: &mut Context<'_>,
         slices: &[io::IoSlice<'_>],
     ) -> Poll<io::Result<usize>> {
-        Pin::new(&mut self.stream).poll_write_vectored(cx, slices)
+        let sent = Pin::new(&mut self.stream).poll_write_vectored(cx, slices);
+        self.taken(cx, sent)
     }
 
     fn is_write_vectored(&self) -> bool {
@@ -172,10 +207,37 @@ impl AsyncWrite for Connection {
     }
 
     fn poll_flush(mut self: Pin<&mut Self>, cx: &mut Context<'_>) -> Poll<io::Result<()>> {
-        Pin::new(&mut self.stream).poll_flush(cx)
+        let sent = Pin::new(&mut self.stream).poll_flush(cx);
+        self.taken(cx, sent)
     }
 
     fn poll_shutdown(mut self: Pin<&mut Self>, cx: &mut Context<'_>) -> Poll<io::Result<()>> {
-        Pin::new(&mut self.stream).poll_shutdown(cx)
+        let sent = Pin::new(&mut self.stream).poll_shutdown(cx);
+        self.taken(cx, sent)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use tokio::io::AsyncWriteExt;
+
+    use super::*;
+
+    #[tokio::test]
+    async fn who_does_not_take_what_is_sent_loses_the_connection_and_its_place() {
+        let listener = TcpListener::bind("127.0.0.1:0").await.unwrap();
+        let address = listener.local_addr().unwrap();
+        let (patience, open) = (Duration::from_millis(200), Level::default());
+        let mut counted = Counted::new(listener, 1, patience, open.clone(), None);
+        let client = TcpStream::connect(address).await.unwrap();
+        let (mut connection, _) = counted.next().await;
+        assert_eq!(open.count(), 1);
+        let endless = async { while connection.write_all(&[0; 65_536]).await.is_ok() {} };
+        tokio::time::timeout(Duration::from_secs(30), endless).await.expect("an end");
+        let refused = connection.write_all(&[0; 65_536]).await.unwrap_err();
+        assert_eq!(refused.kind(), io::ErrorKind::TimedOut);
+        drop(connection);
+        assert_eq!(open.count(), 0);
+        drop(client);
     }
 }

@@ -67,6 +67,7 @@ pub const REST: &[(&str, Who)] = &[
     ("/v1/plans/{id}", OPERATORS),
     ("/v1/plans/{id}/scenario", OPERATORS),
     ("/v1/plans/{id}/explanation", OPERATORS),
+    ("/v1/log-filter", Everywhere(&[Admin])),
     ("/openapi.json", Holders),
     ("/docs", Holders),
     ("/docs/", Holders),

@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand};
 
 use super::{
-    bench, check, config, explain, generate, operator, pages, policies, serve, solve, token,
+    backup, bench, check, config, explain, generate, operator, pages, policies, serve, solve, token,
 };
 
 /// Plans the tours of mobile chargers in wireless rechargeable sensor networks.
@@ -59,6 +59,10 @@ pub enum Command {
     /// Make and revoke API tokens, on the service's machine
     #[command(subcommand)]
     Token(token::Command),
+    /// Copy the database, also while the service runs on it
+    Backup(backup::Backup),
+    /// Put a backup in the place of the database, while no service runs
+    Restore(backup::Restore),
     /// Look at the configuration
     #[command(subcommand)]
     Config(config::Command),
@@ -82,6 +86,8 @@ pub fn run(cli: Cli) -> ExitCode {
         Command::Policy(command) => policies::run(command),
         Command::Serve(args) => serve::run(args),
         Command::Token(command) => token::run(command),
+        Command::Backup(args) => backup::backup(args),
+        Command::Restore(args) => backup::restore(args),
         Command::Config(command) => config::run(command),
         Command::Completions(args) => pages::completions(args),
         Command::Man(args) => pages::man(args),

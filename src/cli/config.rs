@@ -35,7 +35,9 @@ impl Source {
     fn load(&self) -> Result<Config, Failure> {
         let config = config::load_with(self.config.as_deref(), &self.set)
             .map_err(|errors| Failure { code: 2, lines: errors.0 })?;
-        telemetry::filter(&config.log).map_err(|error| Failure::input(error.to_string()))?;
+        let filter = &config.log.filter;
+        telemetry::filter(filter)
+            .map_err(|error| Failure::input(format!("log.filter: {filter:?}: {error}")))?;
         Ok(config)
     }
 }

@@ -1,10 +1,12 @@
 //! The command tree: each command is a file with its `Args` and its `run`. The only room that prints.
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "a command line prints")]
 
+pub mod backup;
 pub mod bench;
 pub mod check;
 mod command;
 pub mod config;
+mod database;
 mod documents;
 pub mod explain;
 pub mod failure;
@@ -22,5 +24,6 @@ mod stopwatch;
 pub mod token;
 
 pub use command::{Cli, Command, run};
+pub use database::Database;
 pub use failure::Failure;
 pub use out::say;

@@ -13,6 +13,7 @@ use crate::app::{App, AppError};
 use crate::clock::SystemClock;
 use crate::config::{self, Config, Setting};
 use crate::lifecycle::Lifecycle;
+use crate::telemetry::{LogFilter, Telemetry};
 use crate::{demo, telemetry};
 
 /// Its arguments.
@@ -53,6 +54,8 @@ Configuration, as TOML (these are the defaults):
   # bootstrap_token_file = \"token\"  # an admin's token for all networks
   [store]
   path = \"voltour.db\"          # made where there is none
+  [retention]
+  history = \"90d\"              # left out, everything is kept for good
   [planning]
   solver = \"auto\"
   budget = \"2s\"                # time that the search for a tour may take
@@ -70,12 +73,21 @@ Configuration, as TOML (these are the defaults):
   calls = 1000                 # at once on one connection
   streams = 256                # watches and submission streams
   unacknowledged = 1000        # of one submission stream
+  all_calls = 10000            # gRPC, over all connections
+  waits = 1000                 # calls that wait for a tour
+  rest_calls = 64
   longest_wait = \"5m\"
+  slow_client = \"30s\"        # to ask, or to take what is sent
+  networks = 1000
+  departures = 1000            # of a network, that wait for their plan
   [lifecycle]
   stop_within = \"10s\"
   [log]
   format = \"text\"              # or json
   filter = \"info\"
+  [telemetry]
+  # otlp_endpoint = \"http://localhost:4317\"  # spans, to an OpenTelemetry collector
+  sample_ratio = 1.0
 
 The environment goes before the file: VOLTOUR_PLANNING__BUDGET=1s, VOLTOUR_LOG__FORMAT=json. The command line goes
 before both: --set planning.budget=1s. `voltour config check` and `config print` say what comes of it.
@@ -98,19 +110,27 @@ pub fn run(args: Args) -> Result<ExitCode, Failure> {
         // Its lines are the demonstration; of the log only what goes wrong.
         let log = config::Log { filter: "warn".to_owned(), ..config.log.clone() };
         let log = if args.config.is_some() { config.log.clone() } else { log };
-        telemetry::init(&log).map_err(|error| Failure::input(error.to_string()))?;
+        let telemetry = begin(&log, &config::Telemetry::default())?;
         let configured = args.config.is_some().then_some(config);
-        return block_on(demo::run(configured, args.demo_departures));
+        return block_on(demo::run(configured, args.demo_departures, telemetry.filter));
     }
-    telemetry::init(&config.log).map_err(|error| Failure::input(error.to_string()))?;
-    block_on(serve(config))
+    block_on(async {
+        let telemetry = begin(&config.log, &config.telemetry)?;
+        let served = serve(config, telemetry.filter.clone()).await;
+        telemetry.end().await;
+        served
+    })
 }
 
-async fn serve(config: Config) -> Result<(), Failure> {
+fn begin(log: &config::Log, spans: &config::Telemetry) -> Result<Telemetry, Failure> {
+    telemetry::init(log, spans).map_err(|error| Failure::input(error.to_string()))
+}
+
+async fn serve(config: Config, log: LogFilter) -> Result<(), Failure> {
     let lifecycle = Lifecycle::default();
     let failed = |error: &dyn std::error::Error| Failure::other(error.to_string());
     lifecycle.listen().map_err(|error| failed(&error))?;
-    let started = App::start(&config, Arc::new(SystemClock), lifecycle).await;
+    let started = App::start(&config, Arc::new(SystemClock), lifecycle, log).await;
     let app = started.map_err(not_started)?;
     app.reload_on_hangup().map_err(|error| failed(&error))?;
     say(app.ready());

@@ -1,17 +1,16 @@
 //! `voltour token`: works on the database file, beside a running service or without one. Whoever may
 //! write that file may do everything anyway, so that it needs no token itself.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::ExitCode;
 
 use clap::Subcommand;
 use serde_json::{Value, json};
 
 use super::serve::block_on;
-use super::{Failure, say};
+use super::{Database, Failure, say};
 use crate::access::Secret;
 use crate::clock::{Clock, Ids, SystemClock};
-use crate::config;
 use crate::domain::{ChargerId, Grant, NetworkId, NetworkScope, Role, Token, TokenId, TokenName};
 use crate::store::{StoreError, TokenFile};
 
@@ -41,17 +40,6 @@ Examples:
 
 From the first token on the service asks for one. To replace a token make another, hand it over, and revoke
 the old one. Clients send `authorization: Bearer TOKEN`; the commands of voltour take VOLTOUR_TOKEN.";
-
-/// Which database.
-#[derive(Debug, clap::Args)]
-pub struct Database {
-    /// The database; as the configuration says, or voltour.db, if left out
-    #[arg(long, value_name = "FILE", conflicts_with = "config")]
-    pub database: Option<PathBuf>,
-    /// The service's configuration, which names the database
-    #[arg(long, value_name = "FILE")]
-    pub config: Option<PathBuf>,
-}
 
 /// Arguments of `create`.
 #[derive(Debug, clap::Args)]
@@ -173,16 +161,6 @@ async fn revoke(args: Revoke) -> Result<(), Failure> {
     }
     say(format!("{} is revoked; a running service refuses it within a second", args.name));
     Ok(())
-}
-
-impl Database {
-    fn path(&self) -> Result<PathBuf, Failure> {
-        if let Some(path) = &self.database {
-            return Ok(path.clone());
-        }
-        let config = config::load(self.config.as_deref());
-        Ok(config.map_err(|errors| Failure { code: 2, lines: errors.0 })?.store.path)
-    }
 }
 
 async fn open(path: &Path, make: bool) -> Result<TokenFile, Failure> {

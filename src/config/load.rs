@@ -13,6 +13,7 @@ use super::print::is_secret;
 use super::{Config, Setting, Span};
 use crate::explainer;
 use crate::grpc;
+use crate::retention;
 use crate::scheduler;
 
 /// Every key that is wrong, each with its value and the rule.
@@ -93,6 +94,10 @@ impl Config {
             solver: planning.solver.parse().unwrap_or(SolverName::Auto),
             seed: planning.seed,
             planner_threads: planning.threads,
+            limits: scheduler::Limits {
+                networks: self.limits.networks,
+                departures: self.limits.departures,
+            },
         }
     }
 
@@ -110,6 +115,8 @@ impl Config {
             connections: limits.connections,
             calls: limits.calls,
             streams: limits.streams,
+            all_calls: limits.all_calls,
+            waits: limits.waits,
             unacknowledged: limits.unacknowledged,
             longest_wait: limits.longest_wait.0,
         }
@@ -131,8 +138,13 @@ impl Config {
         let folder = self.policy.folder.as_deref();
         let is_named = folder.is_none_or(|folder| !folder.as_os_str().is_empty());
         errors.check(is_named, "policy.folder", "\"\"", "must name a folder");
+        if let Some(history) = self.retention.history {
+            let (least, most) = (Span(retention::SHORTEST), Span::seconds(36_500 * 86_400));
+            errors.within("retention.history", history, least, most);
+        }
         self.check_planning(&mut errors);
         self.check_limits(&mut errors);
+        self.check_telemetry(&mut errors);
         if errors.0.is_empty() { Ok(()) } else { Err(ConfigError(errors.0)) }
     }
 
@@ -157,6 +169,19 @@ impl Config {
         errors.within("planning.threads", planning.threads, 1, 64);
     }
 
+    fn check_telemetry(&self, errors: &mut Errors) {
+        let telemetry = &self.telemetry;
+        errors.within("telemetry.sample_ratio", telemetry.sample_ratio, 0.0, 1.0);
+        let Some(endpoint) = &telemetry.otlp_endpoint else { return };
+        let parsed = endpoint.parse::<axum::http::Uri>();
+        let good = parsed.is_ok_and(|uri| {
+            uri.scheme_str() == Some("http") && uri.port().is_some() && uri.path() == "/"
+        });
+        let shown = format!("{:?}", endpoint.chars().take(80).collect::<String>());
+        let rule = "must be http://HOST:PORT of a collector that takes OTLP over gRPC";
+        errors.check(good, "telemetry.otlp_endpoint", shown, rule);
+    }
+
     fn check_limits(&self, errors: &mut Errors) {
         let limits = &self.limits;
         errors.within("limits.message_bytes", limits.message_bytes, 1_024, 64 * 1024 * 1024);
@@ -164,7 +189,13 @@ impl Config {
         errors.within("limits.calls", limits.calls, 1, 100_000);
         errors.within("limits.streams", limits.streams, 1, 100_000);
         errors.within("limits.unacknowledged", limits.unacknowledged, 1, 100_000);
+        errors.within("limits.all_calls", limits.all_calls, 1, 1_000_000);
+        errors.within("limits.waits", limits.waits, 1, 1_000_000);
+        errors.within("limits.rest_calls", limits.rest_calls, 1, 10_000);
+        errors.within("limits.networks", limits.networks, 1, 1_000_000);
+        errors.within("limits.departures", limits.departures, 1, 100_000);
         let (least, most) = (Span::seconds(1), Span::seconds(3_600));
+        errors.within("limits.slow_client", limits.slow_client, least, most);
         errors.within("limits.longest_wait", limits.longest_wait, least, most);
         let within = self.lifecycle.stop_within;
         errors.within("lifecycle.stop_within", within, Span(Duration::ZERO), Span::seconds(600));
@@ -236,6 +267,7 @@ mod tests {
             ("[planning]\nsolver = \"magic\"", "planning.solver", "magic"),
             ("[planning]\nexplanation_budget = \"1h\"", "explanation_budget: 1h", "from 0s to 10m"),
             ("[planning]\nthreads = 0", "planning.threads: 0", "from 1 to 64"),
+            ("[retention]\nhistory = \"1d\"", "retention.history: 24h", "from 168h to"),
             ("[policy]\nfolder = \"\"", "policy.folder", "must name a folder"),
             ("[tls]\nkey_file = \"k.pem\"", "tls.certificate_file", "tls.key_file"),
             ("[tls]\nclient_ca_file = \"c.pem\"", "tls.client_ca_file", "tls.certificate_file"),
@@ -243,6 +275,12 @@ mod tests {
             ("[rest]\nhosts = [\"a/b\"]", "rest.hosts", "\"a/b\" must be the name of a host"),
             ("[limits]\nstreams = -1", "limits.streams", "-1"),
             ("[log]\nformat = \"xml\"", "log.format", "xml"),
+            (
+                "[telemetry]\notlp_endpoint = \"here\"",
+                "telemetry.otlp_endpoint: \"here\"",
+                "http://",
+            ),
+            ("[telemetry]\nsample_ratio = 2.0", "telemetry.sample_ratio: 2", "from 0 to 1"),
             ("[grpc]\nlisten = \"here\"", "grpc.listen", "socket address"),
             ("[grpc", "", "voltour.toml"),
         ];

@@ -11,7 +11,8 @@ mod span;
 pub use load::{ConfigError, load, load_with};
 pub use print::print;
 pub use sections::{
-    Access, Config, Format, Grpc, Lifecycle, Limits, Log, Planning, Policy, Rest, Store, Tls,
+    Access, Config, Format, Grpc, Lifecycle, Limits, Log, Planning, Policy, Rest, Store, Telemetry,
+    Tls,
 };
 pub use setting::Setting;
 pub use span::Span;

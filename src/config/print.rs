@@ -38,7 +38,7 @@ pub(super) fn is_secret(key: &str) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::config::{Access, Policy, Tls};
+    use crate::config::{Access, Policy, Telemetry, Tls};
 
     /// The sample that is installed: every key, with its default.
     const SAMPLE: &str = include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/deploy/voltour.toml"));
@@ -89,6 +89,10 @@ mod tests {
             tls: Tls { certificate_file: path(), key_file: path(), client_ca_file: path() },
             access: Access { bootstrap_token: token, bootstrap_token_file: path() },
             policy: Policy { folder: path() },
+            telemetry: Telemetry {
+                otlp_endpoint: Some("http://localhost:4317".into()),
+                ..Telemetry::default()
+            },
             ..Config::default()
         };
         config.planning.lead = Some(Span::seconds(3));

@@ -22,6 +22,8 @@ pub struct Config {
     pub access: Access,
     /// `[store]`
     pub store: Store,
+    /// `[retention]`
+    pub retention: Retention,
     /// `[planning]`
     pub planning: Planning,
     /// `[policy]`
@@ -32,6 +34,8 @@ pub struct Config {
     pub lifecycle: Lifecycle,
     /// `[log]`
     pub log: Log,
+    /// `[telemetry]`
+    pub telemetry: Telemetry,
 }
 
 /// Where gRPC is served.
@@ -82,6 +86,14 @@ pub struct Store {
     pub path: PathBuf,
 }
 
+/// What is deleted, and when.
+#[derive(Clone, Debug, PartialEq, Default, Deserialize, Serialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Retention {
+    /// Requests and departures, with their plans, tours and visits, go so long after they ended; never if none.
+    pub history: Option<Span>,
+}
+
 /// How tours are planned.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(default, deny_unknown_fields)]
@@ -125,10 +137,22 @@ pub struct Limits {
     pub calls: u32,
     /// Watches and submission streams at once, over all connections.
     pub streams: usize,
+    /// gRPC calls at once over all connections, but for health checks.
+    pub all_calls: usize,
+    /// Calls at once that wait for a tour.
+    pub waits: usize,
+    /// REST calls at once, but for health checks.
+    pub rest_calls: usize,
     /// Items of one submission stream that are taken and not acknowledged yet.
     pub unacknowledged: usize,
     /// How long a call waits at most.
     pub longest_wait: Span,
+    /// A client may be so slow with a call's head, or with taking what is sent to it.
+    pub slow_client: Span,
+    /// Networks.
+    pub networks: u32,
+    /// Departures of a network that wait for their plan.
+    pub departures: u32,
 }
 
 /// How the service ends.
@@ -147,6 +171,16 @@ pub struct Log {
     pub format: Format,
     /// As `tracing` spells filters, such as `info,voltour=debug`.
     pub filter: String,
+}
+
+/// Spans for a collector.
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Telemetry {
+    /// Where an OpenTelemetry collector takes OTLP over gRPC: `http://HOST:PORT`; no spans if none.
+    pub otlp_endpoint: Option<String>,
+    /// Share of the traces that is sent, from 0 to 1.
+    pub sample_ratio: f64,
 }
 
 /// How log lines look.
@@ -203,8 +237,14 @@ impl Default for Limits {
             connections: 1_000,
             calls: 1_000,
             streams: 256,
+            all_calls: 10_000,
+            waits: 1_000,
+            rest_calls: 64,
             unacknowledged: 1_000,
             longest_wait: Span::seconds(300),
+            slow_client: Span::seconds(30),
+            networks: 1_000,
+            departures: 1_000,
         }
     }
 }
@@ -212,6 +252,12 @@ impl Default for Limits {
 impl Default for Lifecycle {
     fn default() -> Self {
         Self { stop_within: Span::seconds(10) }
+    }
+}
+
+impl Default for Telemetry {
+    fn default() -> Self {
+        Self { otlp_endpoint: None, sample_ratio: 1.0 }
     }
 }
 

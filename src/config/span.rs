@@ -4,7 +4,7 @@ use std::fmt;
 use std::str::FromStr;
 use std::time::Duration;
 
-use jiff::SignedDuration;
+use jiff::{SignedDuration, SpanRelativeTo};
 use serde::{Deserialize, Serialize, Serializer};
 
 /// A length of time, at least 0.
@@ -23,10 +23,13 @@ impl FromStr for Span {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let parsed: Option<SignedDuration> = text.parse().ok();
+        // A day has 24 hours wherever one is.
+        let span: Option<jiff::Span> = text.parse().ok();
+        let parsed: Option<SignedDuration> =
+            span.and_then(|span| span.to_duration(SpanRelativeTo::days_are_24_hours()).ok());
         let duration = parsed.and_then(|span| Duration::try_from(span).ok());
         duration.map(Self).ok_or_else(|| {
-            format!("{text:?} must be a length of time such as 500ms, 2s, 10m or 1h 30m")
+            format!("{text:?} must be a length of time such as 500ms, 2s, 10m, 1h 30m or 90d")
         })
     }
 }
@@ -64,6 +67,7 @@ mod tests {
         for (text, millis) in expected {
             assert_eq!(text.parse(), Ok(Span(Duration::from_millis(millis))), "{text}");
         }
+        assert_eq!("90d".parse(), Ok(Span::seconds(90 * 86_400)));
         for text in ["", "5", "-2s", "soon", "2 fortnights"] {
             assert!(text.parse::<Span>().is_err(), "{text}");
         }

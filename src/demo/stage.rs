@@ -19,6 +19,7 @@ use crate::clock::{Clock, ScaledClock};
 use crate::config::{Config, Span};
 use crate::domain::{ChargerId, NetworkId, PlanId, SensorId};
 use crate::lifecycle::Lifecycle;
+use crate::telemetry::LogFilter;
 
 /// Seconds on stage in one second.
 const FACTOR: u32 = 300;
@@ -60,7 +61,11 @@ impl Play {
 ///
 /// # Errors
 /// The service did not start, or refused what should have been right.
-pub async fn run(config: Option<Config>, departures: Option<u32>) -> Result<(), Failure> {
+pub async fn run(
+    config: Option<Config>,
+    departures: Option<u32>,
+    log: LogFilter,
+) -> Result<(), Failure> {
     // Removed with all that is in it when it is dropped, after the service has ended.
     let directory = tempfile::tempdir()
         .map_err(|error| Failure::other(format!("no temporary directory: {error}")))?;
@@ -73,7 +78,7 @@ pub async fn run(config: Option<Config>, departures: Option<u32>) -> Result<(), 
     let lifecycle = Lifecycle::default();
     let failed = |error: &dyn std::error::Error| Failure::other(error.to_string());
     lifecycle.listen().map_err(|error| failed(&error))?;
-    let app = App::start(&config, clock.clone(), lifecycle.clone()).await;
+    let app = App::start(&config, clock.clone(), lifecycle.clone(), log).await;
     let app = app.map_err(not_started)?;
     say(app.ready());
     let (grpc, rest) = (app.grpc, app.rest);

@@ -45,9 +45,14 @@ pub enum Refusal {
     /// The caller's deadline, or the service's own longest wait, is over.
     #[error("{0}")]
     DeadlineExceeded(String),
-    /// A queue is full.
-    #[error("{0}")]
-    ResourceExhausted(String),
+    /// A limit is reached; nothing was stored, try again later.
+    #[error("{reason}")]
+    ResourceExhausted {
+        /// The limit, as the configuration names it if it does: `limits.streams`.
+        limit: &'static str,
+        /// What there is too much of.
+        reason: String,
+    },
     /// The database cannot be written now; nothing was stored, try again.
     #[error("{0}")]
     Unavailable(String),
@@ -57,6 +62,11 @@ pub enum Refusal {
 }
 
 impl Refusal {
+    /// A limit is reached.
+    pub fn exhausted(limit: &'static str, reason: impl Into<String>) -> Self {
+        Self::ResourceExhausted { limit, reason: reason.into() }
+    }
+
     /// One field that breaks a rule.
     pub fn invalid(field: impl Into<String>, description: impl Into<String>) -> Self {
         Self::Invalid(vec![FieldViolation { field: field.into(), description: description.into() }])

@@ -4,14 +4,13 @@ use std::cell::Cell;
 use std::sync::Arc;
 use std::time::Duration;
 
-use jiff::Timestamp;
 use tokio_util::sync::CancellationToken;
 use voltour_solver::explain::Explanation;
 use voltour_solver::plan::Plan;
 use voltour_solver::scenario::Scenario;
 use voltour_solver::stop::StopRule;
 
-use crate::clock::{Clock, plus};
+use crate::clock::Clock;
 use crate::planner::{self, Unreadable};
 use crate::store::pack;
 
@@ -64,17 +63,17 @@ impl Work {
 /// large scenario is no part of it.
 struct Limit<'a> {
     work: &'a Work,
-    until: Cell<Option<Timestamp>>,
+    until: Cell<Option<Duration>>,
 }
 
 impl StopRule for Limit<'_> {
     fn should_stop(&self, _: u64) -> bool {
-        let now = self.work.clock.now();
+        let ran = self.work.clock.ran();
         let until = self.until.get().unwrap_or_else(|| {
-            let until = plus(now, self.work.budget);
+            let until = ran + self.work.budget;
             self.until.set(Some(until));
             until
         });
-        self.work.cancel.is_cancelled() || now >= until
+        self.work.cancel.is_cancelled() || ran >= until
     }
 }

@@ -5,10 +5,11 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use tokio_util::sync::CancellationToken;
+use tracing::Instrument;
 use voltour_solver::explain::explain;
 
 use super::work::{Done, Explain, Work};
-use crate::clock::{Clock, plus};
+use crate::clock::Clock;
 use crate::domain::{PlanId, Refusal};
 use crate::metrics::{ExplanationOutcome, Metrics};
 use crate::store::{Attempt, BeginExplanation, EndExplanation, Reads, StoreError, Writer};
@@ -80,7 +81,7 @@ impl Explainer {
                     tracing::error!(%error, "explanations cannot be read or written");
                     tokio::select! {
                         () = self.cancel.cancelled() => return,
-                        () = self.clock.sleep_until(plus(self.clock.now(), PAUSE)) => {}
+                        () = self.clock.pause(PAUSE) => {}
                     }
                 }
             }
@@ -93,7 +94,8 @@ impl Explainer {
         if !self.writer.call(BeginExplanation { plan_id }).await? {
             return Ok(false);
         }
-        let attempt = self.attempt(plan_id).await?;
+        let span = tracing::info_span!("explanation", plan = %plan_id);
+        let attempt = self.attempt(plan_id).instrument(span).await?;
         let outcome = match &attempt {
             Attempt::Explained(_) => Some(ExplanationOutcome::Done),
             Attempt::GivenUp => Some(ExplanationOutcome::Failed),
@@ -102,7 +104,7 @@ impl Explainer {
         self.writer.call(EndExplanation { plan_id, attempt }).await?;
         tracing::debug!(plan = %plan_id, ?outcome, "an explanation has ended");
         if let Some(outcome) = outcome {
-            self.metrics.explained(outcome);
+            self.metrics.planning.explained(outcome);
         }
         Ok(true)
     }

@@ -36,6 +36,7 @@ impl DepartureService for Edge {
         caller.network(&call.content.network_id)?;
         caller.drives(&call.content.charger_id)?;
         let departure = self.handle.announce(call).await?;
+        note(departure.id);
         Ok(Response::new(wire::departure_to_wire(departure)))
     }
 
@@ -45,6 +46,7 @@ impl DepartureService for Edge {
     ) -> Result<Response<Departure>, Status> {
         let caller = caller(call.extensions())?;
         let call = cancel(call.into_inner())?;
+        note(call.content.departure_id);
         if caller.is_restricted() {
             self.departure_of(&caller, call.content.departure_id).await?;
         }
@@ -120,6 +122,11 @@ impl Edge {
         caller.drives(&departure.announced.charger_id)?;
         Ok(departure)
     }
+}
+
+/// So that a departure's way can be followed by its id, from its announcement on.
+fn note(id: DepartureId) {
+    tracing::Span::current().record("departure", tracing::field::display(id));
 }
 
 fn cancel(wire: CancelDepartureRequest) -> Result<Call<CancelDeparture>, Refusal> {

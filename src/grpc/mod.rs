@@ -2,6 +2,7 @@
 //! reflection. Wire types are parsed here into the domain's, once, and never pass this module (the
 //! command line, a client, uses the conversions too).
 
+mod count;
 mod deadline;
 mod departure;
 mod edge;

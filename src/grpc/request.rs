@@ -29,9 +29,12 @@ impl RequestService for Edge {
         call: Request<SubmitRequest>,
     ) -> Result<Response<ChargingRequest>, Status> {
         let caller = caller(call.extensions())?;
-        let call = wire::new_request(call.into_inner())?;
-        caller.network(&call.content.network_id)?;
-        let request = self.handle.submit(call).await?;
+        let submitted = async {
+            let call = wire::new_request(call.into_inner())?;
+            caller.network(&call.content.network_id)?;
+            self.handle.submit(call).await
+        };
+        let request = submitted.await.inspect_err(|refusal| self.calls.refused(refusal))?;
         Ok(Response::new(wire::request_to_wire(request)))
     }
 

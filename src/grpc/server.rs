@@ -1,13 +1,18 @@
 //! The server: the four services, health and reflection on one listener.
 
+use std::sync::Arc;
 use std::time::Duration;
 
+use tokio::sync::{Semaphore, watch};
+use tokio_util::sync::CancellationToken;
 use tonic::server::NamedService;
 use tonic_health::ServingStatus;
 use tonic_health::server::HealthReporter;
 use tower_http::auth::AsyncRequireAuthorizationLayer;
+use tracing::field::Empty;
 
 use super::Edge;
+use super::count::Count;
 use super::guard::Guard;
 use crate::listen::{self, Counted};
 use crate::proto::DESCRIPTORS;
@@ -15,6 +20,7 @@ use crate::proto::departure_service_server::DepartureServiceServer;
 use crate::proto::network_service_server::NetworkServiceServer;
 use crate::proto::request_service_server::RequestServiceServer;
 use crate::proto::tour_service_server::TourServiceServer;
+use crate::store::Trouble;
 
 /// Bytes of a call's headers.
 const HEADER_BYTES: u32 = 16 * 1024;
@@ -52,9 +58,11 @@ impl Server {
     /// Runs to its end.
     pub async fn run(self) -> Result<(), ServerError> {
         let Self { edge, listener } = self;
-        let (limits, stop) = (edge.limits, edge.stop.clone());
+        let (limits, stop, calls) = (edge.limits, edge.stop.clone(), edge.calls.clone());
+        let room = Arc::new(Semaphore::new(limits.all_calls));
         let (reporter, health) = tonic_health::server::health_reporter();
-        report(&reporter, ServingStatus::Serving).await;
+        let able =
+            tokio::spawn(able(reporter.clone(), edge.handle.reads().trouble(), stop.clone()));
         let reflection = || {
             tonic_reflection::server::Builder::configure()
                 .register_encoded_file_descriptor_set(DESCRIPTORS)
@@ -69,17 +77,25 @@ impl Server {
         }
         let stopping = async move {
             stop.cancelled().await;
+            // It has the last word no more.
+            let _ = able.await;
             report(&reporter, ServingStatus::NotServing).await;
             // Ends the watches of the health service, which would keep their connections open.
             close(reporter).await;
         };
         tonic::transport::Server::builder()
-            .trace_fn(|call| tracing::debug_span!("grpc", path = call.uri().path()))
+            .trace_fn(|call| {
+                let path = call.uri().path();
+                tracing::debug_span!("grpc", otel.name = path, path, departure = Empty)
+            })
             .timeout(limits.longest_wait + CALL_SLACK)
             .max_concurrent_streams(limits.calls)
             .http2_max_header_list_size(HEADER_BYTES)
             .http2_keepalive_interval(Some(KEEPALIVE))
             .http2_keepalive_timeout(Some(KEEPALIVE_ANSWER))
+            .layer(tower::layer::layer_fn(move |inner| {
+                Count::new(inner, calls.clone(), limits, room.clone())
+            }))
             .layer(AsyncRequireAuthorizationLayer::new(Guard(edge.gate.clone())))
             .add_service(health)
             .add_service(reflection().build_v1()?)
@@ -103,6 +119,25 @@ const SERVICES: [&str; 5] = [
     DepartureServiceServer::<Edge>::NAME,
     TourServiceServer::<Edge>::NAME,
 ];
+
+/// Says that the services serve for as long as something can be written.
+async fn able(
+    reporter: HealthReporter,
+    mut trouble: watch::Receiver<Option<Trouble>>,
+    stop: CancellationToken,
+) {
+    loop {
+        let status = match *trouble.borrow_and_update() {
+            None => ServingStatus::Serving,
+            Some(_) => ServingStatus::NotServing,
+        };
+        report(&reporter, status).await;
+        tokio::select! {
+            () = stop.cancelled() => return,
+            changed = trouble.changed() => if changed.is_err() { return },
+        }
+    }
+}
 
 async fn report(reporter: &HealthReporter, status: ServingStatus) {
     for service in SERVICES {

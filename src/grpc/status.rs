@@ -7,7 +7,7 @@ use tonic_types::{ErrorDetails, StatusExt};
 
 use crate::domain::{FieldViolation, Refusal};
 use crate::proto;
-use crate::store::StoreError;
+use crate::store::{StoreError, Trouble};
 
 /// Details travel in the trailers, of which clients take 16 KiB, in base64: so much of them may be
 /// violations.
@@ -31,8 +31,10 @@ impl From<Refusal> for Status {
             Refusal::NotFound { what, id } => {
                 details.set_resource_info(*what, id, "", "");
             }
-            Refusal::Unavailable(_) | Refusal::ResourceExhausted(_) => {
+            Refusal::Unavailable(_) => drop(details.set_retry_info(Some(RETRY))),
+            Refusal::ResourceExhausted { limit, reason } => {
                 details.set_retry_info(Some(RETRY));
+                details.add_quota_failure_violation(*limit, reason);
             }
             Refusal::Internal(message) => tracing::error!(%message, "a call failed"),
             _ => {}
@@ -67,7 +69,7 @@ fn code(refusal: &Refusal) -> Code {
         Refusal::FailedPrecondition(_) => Code::FailedPrecondition,
         Refusal::Aborted(_) => Code::Aborted,
         Refusal::DeadlineExceeded(_) => Code::DeadlineExceeded,
-        Refusal::ResourceExhausted(_) => Code::ResourceExhausted,
+        Refusal::ResourceExhausted { .. } => Code::ResourceExhausted,
         Refusal::Unavailable(_) => Code::Unavailable,
         Refusal::Internal(_) => Code::Internal,
     }
@@ -96,10 +98,24 @@ pub(super) fn read_failed(error: StoreError) -> Refusal {
     match error {
         StoreError::Row { .. } => Refusal::Internal(error.to_string()),
         error => {
+            let trouble = Trouble::of(&error);
             tracing::warn!(%error, "a read failed");
-            Refusal::Unavailable("the database cannot be read now; try again".to_owned())
+            let why = trouble.map(|trouble| format!(" ({trouble})")).unwrap_or_default();
+            Refusal::Unavailable(format!("the database cannot be read now{why}; try again"))
         }
     }
+}
+
+/// A message that is too long is refused by the transport as out of range: here that is a limit like the others, but
+/// for the advice to try again.
+pub(super) fn too_long(status: Status, most: usize) -> Status {
+    if status.code() != Code::OutOfRange {
+        return status;
+    }
+    let reason = format!("a message is longer than {most} bytes");
+    let mut details = ErrorDetails::new();
+    details.add_quota_failure_violation("limits.message_bytes", &reason);
+    Status::with_error_details(Code::ResourceExhausted, reason, details)
 }
 
 /// What a call gets that the service's end cut short.

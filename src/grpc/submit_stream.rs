@@ -2,13 +2,14 @@
 //! acknowledgements leave in the order of the items.
 
 use futures_util::stream::{self, Stream, StreamExt};
-use tokio::sync::OwnedSemaphorePermit;
 use tonic::{Status, Streaming};
 
 use super::Edge;
-use super::status::stopping;
+use super::edge::Permit;
+use super::status::{stopping, too_long};
 use super::wire;
 use crate::access::Caller;
+use crate::metrics::Calls;
 use crate::proto::acknowledgement::Result as Outcome;
 use crate::proto::{Acknowledgement, SubmitRequest};
 use crate::scheduler::Handle;
@@ -23,15 +24,18 @@ pub(super) fn acknowledge(
     edge: Edge,
     caller: Caller,
     items: Streaming<SubmitRequest>,
-    permit: OwnedSemaphorePermit,
+    permit: Permit,
 ) -> impl Stream<Item = Result<Acknowledgement, Status>> + Send {
-    let Edge { handle, limits, stop, .. } = edge;
+    let Edge { handle, limits, calls, stop, .. } = edge;
     let stopped = stop.clone();
     let last = stream::once(async move { stopped.is_cancelled().then(|| Err(stopping())) });
     items
         .take_until(stop.cancelled_owned())
         .enumerate()
-        .then(move |(position, item)| queue(handle.clone(), caller.clone(), position as u64, item))
+        .then(move |(position, item)| {
+            let most = limits.message_bytes;
+            queue(handle.clone(), caller.clone(), calls.clone(), most, position as u64, item)
+        })
         .buffered(limits.unacknowledged)
         .chain(last.filter_map(std::future::ready))
         .inspect(move |_| {
@@ -44,6 +48,8 @@ pub(super) fn acknowledge(
 async fn queue(
     handle: Handle,
     caller: Caller,
+    calls: Calls,
+    most: usize,
     position: u64,
     item: Result<SubmitRequest, Status>,
 ) -> impl Future<Output = Result<Acknowledgement, Status>> + Send {
@@ -61,7 +67,7 @@ async fn queue(
             Ok((client_id, answer))
         }
         // A broken transport or an undecodable message ends the stream: what follows cannot be read.
-        Err(status) => Err(status),
+        Err(status) => Err(too_long(status, most)),
     };
     async move {
         let (client_id, answer) = queued?;
@@ -71,7 +77,10 @@ async fn queue(
         };
         let result = match submitted {
             Ok(request) => Outcome::Request(wire::request_to_wire(request)),
-            Err(refusal) => Outcome::Refused(refusal.into()),
+            Err(refusal) => {
+                calls.refused(&refusal);
+                Outcome::Refused(refusal.into())
+            }
         };
         Ok(Acknowledgement { position, client_id, result: Some(result) })
     }

@@ -56,8 +56,13 @@ impl Service {
         let listener = TcpListener::bind("127.0.0.1:0").await.unwrap();
         let address = format!("http://{}", listener.local_addr().unwrap());
         let gate = Gate::open(handle.reads().clone(), None).await.unwrap();
-        let edge = Edge::new(handle, gate, config.grpc_limits(), stop.clone());
-        let server = tokio::spawn(Server::new(edge, Counted::new(listener, 100, None)).run());
+        let calls = Metrics::default().calls;
+        let open = calls.connections("grpc");
+        let edge = Edge::new(handle, gate, config.grpc_limits(), calls, stop.clone());
+        let server = tokio::spawn(
+            Server::new(edge, Counted::new(listener, 100, Duration::from_secs(30), open, None))
+                .run(),
+        );
         let channel = Endpoint::from_shared(address).unwrap().connect().await.unwrap();
         let service = Self { channel, stop, scheduler, server, running };
         NetworkServiceClient::new(service.channel.clone()).put(network(700)).await.unwrap();

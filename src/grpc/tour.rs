@@ -35,6 +35,7 @@ impl TourService for Edge {
         let ((network, charger), departure) = fields.finish(ids)?;
         caller.network(&network)?;
         caller.drives(&charger)?;
+        let _waits = self.wait_permit()?;
         let planned = self.handle.next_tour(&network, &charger, departure);
         let tour = tokio::select! {
             planned = tokio::time::timeout(wait, planned) => planned.map_err(|_| {

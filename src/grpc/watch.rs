@@ -8,11 +8,12 @@ use std::future::Future;
 use std::time::Duration;
 
 use futures_util::stream::{self, Stream};
-use tokio::sync::{OwnedSemaphorePermit, watch};
+use tokio::sync::watch;
 use tokio_util::sync::CancellationToken;
 use tonic::Status;
 
 use super::Edge;
+use super::edge::Permit;
 use super::status::{read_failed, stopping};
 use crate::domain::{NetworkId, Refusal};
 use crate::store::{Reads, StoreError};
@@ -94,7 +95,7 @@ struct Watch<T, F> {
     /// Whether the queue is of the present state.
     initial: bool,
     wanted: F,
-    _permit: OwnedSemaphorePermit,
+    _permit: Permit,
 }
 
 impl<T: Followed, F: Fn(&T) -> bool> Watch<T, F> {

@@ -71,7 +71,8 @@ fn request(batch: &Batch, request: &Request) -> RequestDocument {
     let battery_j = sensor.map_or(f64::INFINITY, |sensor| sensor.battery_j);
     let measured_at = asked.measured_at.unwrap_or(request.received_at);
     let aged = |residual_j: f64| {
-        let drained = drain_w.unwrap_or(0.0) * seconds(measured_at, start);
+        // What was measured at a time to come, by a clock that was ahead, has not grown since.
+        let drained = drain_w.unwrap_or(0.0) * seconds(measured_at, start).max(0.0);
         (residual_j - drained).clamp(0.0, battery_j)
     };
     RequestDocument {

@@ -29,7 +29,15 @@ impl Clock for Ticking {
         *now
     }
 
+    fn ran(&self) -> Duration {
+        Duration::try_from(self.0.lock().unwrap().as_duration()).unwrap()
+    }
+
     fn sleep_until(&self, _: Timestamp) -> Sleep<'_> {
+        Box::pin(std::future::pending())
+    }
+
+    fn pause(&self, _: Duration) -> Sleep<'_> {
         Box::pin(std::future::pending())
     }
 }

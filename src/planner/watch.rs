@@ -4,7 +4,6 @@ use std::cell::{Cell, RefCell};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::Duration;
 
-use jiff::Timestamp;
 use voltour_solver::check::check;
 use voltour_solver::plan::Plan;
 use voltour_solver::policy::QFunction;
@@ -14,7 +13,6 @@ use voltour_solver::stop::StopRule;
 
 use super::contest::Contest;
 use super::part::uses_policy;
-use crate::clock::{plus, seconds};
 use crate::policy::{Limited, Policy};
 
 /// The part of a search's time that the values of its policy may take.
@@ -24,10 +22,10 @@ const POLICY_PART: u32 = 2;
 pub(super) struct Watch<'a> {
     contest: &'a Contest,
     budget: Duration,
-    from: Timestamp,
+    from: Duration,
     policy: Option<Limited<'a>>,
     /// When the search ends; set when it begins, for compiling a large scenario is no part of it.
-    until: Cell<Option<Timestamp>>,
+    until: Cell<Option<Duration>>,
     done_s: RefCell<Vec<(String, f64)>>,
     /// How the policy fared.
     pub tried: RefCell<PolicyUse>,
@@ -42,7 +40,7 @@ impl<'a> Watch<'a> {
         Self {
             contest,
             budget,
-            from: contest.clock.now(),
+            from: contest.clock.ran(),
             policy: policy.map(limited),
             until: Cell::new(None),
             done_s: RefCell::default(),
@@ -75,7 +73,7 @@ impl<'a> Watch<'a> {
 
     /// Time since the search began.
     pub fn elapsed_s(&self) -> f64 {
-        seconds(self.from, self.contest.clock.now()).max(0.0)
+        self.contest.clock.ran().saturating_sub(self.from).as_secs_f64()
     }
 
     /// Of each of several contenders in one search, when it was done: seconds since the search began.
@@ -93,13 +91,15 @@ impl<'a> Watch<'a> {
 
 impl StopRule for Watch<'_> {
     fn should_stop(&self, _: u64) -> bool {
-        let now = self.contest.clock.now();
+        let Contest { clock, latest, cancel, .. } = self.contest;
+        // In this order: a clock of a test moves on when it is asked for the time.
+        let (now, ran) = (clock.now(), clock.ran());
         let until = self.until.get().unwrap_or_else(|| {
-            let until = plus(now, self.budget).min(self.contest.latest);
+            let until = ran + self.budget;
             self.until.set(Some(until));
             until
         });
-        self.contest.cancel.is_cancelled() || now >= until
+        cancel.is_cancelled() || ran >= until || now >= *latest
     }
 
     fn done(&self, solver: &str) {

@@ -2,9 +2,11 @@
 //! route may give.
 
 use utoipa::Modify;
+use utoipa::openapi::path::Operation;
 use utoipa::openapi::security::{Http, HttpAuthScheme, SecurityRequirement, SecurityScheme};
 use utoipa::openapi::{Content, OpenApi, Ref, RefOr, Response};
 
+use super::openapi::operations;
 use super::problem::MEDIA_TYPE;
 use crate::access::table::{self, Who};
 
@@ -21,25 +23,27 @@ impl Modify for Guarded {
         }
         for (path, item) in &mut api.paths.paths {
             let is_open = table::rest(path) == Some(Who::Anybody);
-            let Some(operation) = &mut item.get else { continue };
-            let mut add = |status: &str, description: &str| {
-                let response = RefOr::T(problem(description));
-                operation.responses.responses.entry(status.to_owned()).or_insert(response);
-            };
-            add("421", "The caller speaks to another host; see `rest.hosts`");
-            if is_open {
-                continue;
-            }
-            add("401", "A token is needed, and none or no good one came");
-            add("403", "The token's role may not, or it is not for all networks");
-            let none: [&str; 0] = [];
-            // The first: as long as the service has no token, none is needed.
-            let ways = [SecurityRequirement::default()].into_iter();
-            let ways =
-                ways.chain(["token", "password"].map(|way| SecurityRequirement::new(way, none)));
-            operation.security = Some(ways.collect());
+            operations(item).for_each(|operation| describe(operation, is_open));
         }
     }
+}
+
+fn describe(operation: &mut Operation, is_open: bool) {
+    let mut add = |status: &str, description: &str| {
+        let response = RefOr::T(problem(description));
+        operation.responses.responses.entry(status.to_owned()).or_insert(response);
+    };
+    add("421", "The caller speaks to another host; see `rest.hosts`");
+    if is_open {
+        return;
+    }
+    add("401", "A token is needed, and none or no good one came");
+    add("403", "The token's role may not, or it is not for all networks");
+    let none: [&str; 0] = [];
+    // The first: as long as the service has no token, none is needed.
+    let ways = [SecurityRequirement::default()].into_iter();
+    let ways = ways.chain(["token", "password"].map(|way| SecurityRequirement::new(way, none)));
+    operation.security = Some(ways.collect());
 }
 
 /// A refusal, as it is described.

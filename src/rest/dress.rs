@@ -88,7 +88,11 @@ fn as_problem(response: Response) -> Response {
         return response;
     }
     let problem = match status {
-        StatusCode::METHOD_NOT_ALLOWED => Problem::new(status).detail("only GET and HEAD"),
+        StatusCode::METHOD_NOT_ALLOWED => {
+            let allowed = response.headers().get(ALLOW).and_then(|allow| allow.to_str().ok());
+            Problem::new(status).detail(format!("only {}", allowed.unwrap_or("other methods")))
+        }
+        StatusCode::PAYLOAD_TOO_LARGE => Problem::new(status).detail("the body is too long"),
         StatusCode::NOT_ACCEPTABLE => {
             Problem::new(status).detail("Accept-Encoding: must leave gzip or identity")
         }

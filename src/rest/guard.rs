@@ -11,8 +11,11 @@ use axum::http::{HeaderValue, StatusCode};
 use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
 
+use tokio::sync::{Semaphore, SemaphorePermit};
+
 use super::problem::Problem;
-use crate::access::{Caller, Gate, table};
+use crate::access::table::{self, Who};
+use crate::access::{Caller, Gate};
 use crate::domain::Refusal;
 
 /// What browsers and clients may send; the first is what a program should.
@@ -24,14 +27,32 @@ pub struct Guard {
     gate: Gate,
     /// None where any name will do.
     hosts: Option<Arc<[String]>>,
+    /// For calls, but for those that anybody may make.
+    room: Arc<Semaphore>,
+    most: usize,
 }
 
 impl Guard {
     /// In front of a listener. On loopback only names of this machine are answered to, and `hosts`: a page
     /// that a browser here has loaded from elsewhere may lead any other name to this address.
-    pub fn new(gate: Gate, is_loopback: bool, hosts: &[String]) -> Self {
+    /// At most `most` calls are answered at once.
+    pub fn new(gate: Gate, is_loopback: bool, hosts: &[String], most: usize) -> Self {
         let lower = || hosts.iter().map(|host| host.to_ascii_lowercase()).collect();
-        Self { gate, hosts: is_loopback.then(lower) }
+        let room = Arc::new(Semaphore::new(most));
+        Self { gate, hosts: is_loopback.then(lower), room, most }
+    }
+
+    /// Room for one more call, until its answer begins.
+    fn room(&self, who: Who) -> Result<Option<SemaphorePermit<'_>>, Problem> {
+        if who == Who::Anybody {
+            return Ok(None);
+        }
+        self.room.try_acquire().map(Some).map_err(|_| {
+            let most = self.most;
+            let detail =
+                format!("limits.rest_calls: {most} calls are being answered, the most at once");
+            Problem::new(StatusCode::TOO_MANY_REQUESTS).detail(detail)
+        })
     }
 
     fn host(&self, call: &Request) -> Result<(), Problem> {
@@ -62,6 +83,7 @@ pub(super) async fn guard(
     if let Some(caller) = guard.gate.admit(who, call.headers()).await.map_err(refused)? {
         call.extensions_mut().insert(caller);
     }
+    let _room = guard.room(who).map_err(Problem::into_response)?;
     Ok(next.run(call).await)
 }
 

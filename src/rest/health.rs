@@ -33,7 +33,7 @@ pub(super) async fn healthz(uri: Uri) -> Result<Json<Health>, Problem> {
     Ok(OK)
 }
 
-/// The database answers, and the service is not going down.
+/// The database answers and can be written, and the service is not going down.
 #[utoipa::path(get, path = "/readyz", tag = "health", responses(
     (status = 200, description = "Send calls", body = Health),
     (status = 503, description = "Send none now", body = Problem,
@@ -46,6 +46,9 @@ pub(super) async fn readyz(
     Params::none(&uri)?;
     if state.shutting_down.is_cancelled() {
         return Err(Problem::unavailable("the service is shutting down"));
+    }
+    if let Some(trouble) = *state.reads.trouble().borrow() {
+        return Err(Problem::unavailable(&trouble.to_string()));
     }
     match tokio::time::timeout(PATIENCE, state.reads.ping()).await {
         Ok(Ok(())) => Ok(OK),

@@ -1,7 +1,8 @@
-//! The REST edge: what the service has stored, to be read. Nothing is changed here; every error is a
+//! The REST edge: what the service has stored, to be read. Nothing of it is changed here; every error is a
 //! problem document (RFC 9457), logged once if it is the service's own.
 
 mod accept;
+mod count;
 mod described;
 mod docs;
 mod dress;
@@ -11,6 +12,7 @@ mod guard;
 mod health;
 mod immutable;
 mod lists;
+mod log_filter;
 mod metrics;
 mod openapi;
 mod plan_forms;
@@ -19,6 +21,7 @@ mod problem;
 mod query;
 mod router;
 mod routes;
+mod server;
 mod state;
 mod view;
 
@@ -27,4 +30,5 @@ mod tests;
 
 pub use guard::Guard;
 pub use router::router;
+pub use server::serve;
 pub use state::RestState;

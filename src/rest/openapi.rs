@@ -6,13 +6,15 @@ use axum::body::Body;
 use axum::http::header::CONTENT_TYPE;
 use axum::http::{HeaderValue, Uri};
 use axum::response::Response;
+use utoipa::openapi::PathItem;
+use utoipa::openapi::path::Operation;
 use utoipa::{Modify, OpenApi, openapi};
 
 use super::described::{Guarded, problem};
 use super::problem::Problem;
 use super::query::Params;
 use super::view::PlanStatus;
-use super::{explanations, export, health, lists, metrics, plan_forms, plans};
+use super::{explanations, export, health, lists, log_filter, metrics, plan_forms, plans};
 
 #[derive(OpenApi)]
 #[openapi(
@@ -20,7 +22,7 @@ use super::{explanations, export, health, lists, metrics, plan_forms, plans};
         title = "voltour",
         description = "What the scheduling service has stored, to be read. Lists are \
             `{items, next_cursor}`; times are RFC 3339; errors are problem documents (RFC 9457); \
-            unknown query parameters are refused. Everything that changes something is gRPC."
+            unknown query parameters are refused. Everything that changes something of it is gRPC."
     ),
     paths(
         lists::networks,
@@ -36,6 +38,8 @@ use super::{explanations, export, health, lists, metrics, plan_forms, plans};
         plan_forms::map,
         plans::scenario,
         explanations::explanation,
+        log_filter::show,
+        log_filter::set,
         metrics::metrics,
         health::healthz,
         health::readyz,
@@ -46,9 +50,10 @@ use super::{explanations, export, health, lists, metrics, plan_forms, plans};
 struct Api;
 
 /// What any operation may answer, whatever it is.
-const REFUSALS: [(&str, &str); 5] = [
+const REFUSALS: [(&str, &str); 6] = [
     ("400", "Bad parameters"),
     ("406", "Neither gzip nor the plain answer is acceptable"),
+    ("429", "Too many calls at once; try again"),
     ("500", "The service failed; its log says why"),
     ("503", "Not now"),
     ("504", "It took too long"),
@@ -59,7 +64,7 @@ struct Refusals;
 
 impl Modify for Refusals {
     fn modify(&self, api: &mut openapi::OpenApi) {
-        let operations = api.paths.paths.values_mut().filter_map(|path| path.get.as_mut());
+        let operations = api.paths.paths.values_mut().flat_map(operations);
         for operation in operations {
             for (status, text) in REFUSALS {
                 let responses = &mut operation.responses.responses;
@@ -67,6 +72,11 @@ impl Modify for Refusals {
             }
         }
     }
+}
+
+/// What is described of a path.
+pub(super) fn operations(item: &mut PathItem) -> impl Iterator<Item = &mut Operation> {
+    [&mut item.get, &mut item.put].into_iter().filter_map(|operation| operation.as_mut())
 }
 
 static DOCUMENT: LazyLock<Result<String, serde_json::Error>> =
@@ -121,11 +131,13 @@ mod tests {
     #[test]
     fn every_operation_has_a_name_of_its_own_and_tells_its_refusals() {
         let mut names = std::collections::HashSet::new();
-        for (path, item) in Api::openapi().paths.paths {
-            let operation = item.get.unwrap();
-            assert!(names.insert(operation.operation_id), "{path}");
-            for (status, _) in REFUSALS {
-                assert!(operation.responses.responses.contains_key(status), "{path} {status}");
+        for (path, mut item) in Api::openapi().paths.paths {
+            assert!(operations(&mut item).count() > 0, "{path}");
+            for operation in operations(&mut item) {
+                assert!(names.insert(operation.operation_id.clone()), "{path}");
+                for (status, _) in REFUSALS {
+                    assert!(operation.responses.responses.contains_key(status), "{path} {status}");
+                }
             }
         }
     }
@@ -143,6 +155,7 @@ mod tests {
                 "/readyz",
                 "/v1/departures",
                 "/v1/departures/{id}",
+                "/v1/log-filter",
                 "/v1/networks",
                 "/v1/networks/{id}",
                 "/v1/plans",

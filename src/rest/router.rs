@@ -1,20 +1,24 @@
 //! The routes.
 
 use axum::Router;
+use axum::extract::DefaultBodyLimit;
 use axum::middleware::from_fn_with_state;
 use axum::routing::get;
 
+use super::count::count;
 use super::dress::dress;
 use super::guard::{Guard, guard};
 use super::routes::Routes;
 use super::{
-    RestState, docs, explanations, export, health, lists, metrics, openapi, plan_forms, plans,
+    RestState, docs, explanations, export, health, lists, log_filter, metrics, openapi, plan_forms,
+    plans,
 };
 
 /// Every route of the REST edge, with its layers.
 pub fn router(state: RestState, behind: Guard) -> Router {
-    let (routes, _) = routes().finish();
-    dress(routes.with_state(state).layer(from_fn_with_state(behind, guard)))
+    let ((routes, _), calls) = (routes().finish(), state.metrics.calls.clone());
+    let routes = routes.with_state(state).layer(from_fn_with_state(behind, guard));
+    dress(routes).layer(from_fn_with_state(calls, count))
 }
 
 fn routes() -> Routes<RestState> {
@@ -31,6 +35,12 @@ fn routes() -> Routes<RestState> {
         .route("/v1/plans/{id}", get(plan_forms::by_name))
         .route("/v1/plans/{id}/scenario", get(plans::scenario))
         .route("/v1/plans/{id}/explanation", get(explanations::explanation))
+        .route(
+            "/v1/log-filter",
+            get(log_filter::show)
+                .put(log_filter::set)
+                .layer(DefaultBodyLimit::max(log_filter::BODY_BYTES)),
+        )
         .route("/openapi.json", get(openapi::document))
         .route("/docs", get(docs::to_page))
         .route("/docs/", get(docs::page))

@@ -19,6 +19,7 @@ use crate::clock::plus;
 use crate::metrics::Metrics;
 use crate::store::fixture::Bench;
 use crate::store::{Listed, NewPlan, PlanFilter, StorePlan, pack};
+use crate::telemetry::LogFilter;
 
 /// A service's database and its REST edge.
 struct Edge {
@@ -50,13 +51,18 @@ impl Edge {
     async fn new() -> Self {
         let bench = Bench::new().await;
         let shutdown = CancellationToken::new();
-        let state = RestState::new(bench.store.reads.clone(), Metrics::default(), shutdown.clone());
+        let state = RestState::new(
+            bench.store.reads.clone(),
+            Metrics::default(),
+            LogFilter::default(),
+            shutdown.clone(),
+        );
         Self { bench, state, shutdown }
     }
 
     async fn ask(&self, request: Request<Body>) -> Answer {
         let gate = Gate::open(self.bench.store.reads.clone(), None).await.unwrap();
-        let guard = Guard::new(gate, false, &[]);
+        let guard = Guard::new(gate, false, &[], 64);
         let response = router(self.state.clone(), guard).oneshot(request).await.unwrap();
         let (parts, body) = response.into_parts();
         let body = axum::body::to_bytes(body, 1 << 22).await.unwrap().to_vec();
@@ -273,4 +279,35 @@ async fn the_document_has_a_page_and_the_page_asks_nobody_else() {
         start.contains("\"/openapi.json\"") && start.contains("\"validatorUrl\": \"none\""),
         "{start}"
     );
+}
+
+#[tokio::test]
+async fn calls_beyond_the_limit_are_told_to_try_again() {
+    let edge = Edge::new().await;
+    let gate = Gate::open(edge.bench.store.reads.clone(), None).await.unwrap();
+    let routes = router(edge.state.clone(), Guard::new(gate, false, &[], 1));
+    let ask = |path: &str| routes.clone().oneshot(Request::get(path).body(Body::empty()).unwrap());
+    // The first waits for its picture, and holds its place meanwhile.
+    let pictures = edge.state.pictures.clone().acquire_many_owned(2).await.unwrap();
+    let departure = edge.bench.announce("c").await;
+    let batch = edge.bench.closed(departure).await;
+    edge.bench.store_plan(&batch, &[]).await.unwrap();
+    let plan = edge.good("/v1/plans").await.ids().remove(0);
+    let first = tokio::spawn(ask(&format!("/v1/plans/{plan}.svg")));
+    let refused = async {
+        loop {
+            let answer = ask("/v1/networks").await.unwrap();
+            if answer.status() == StatusCode::TOO_MANY_REQUESTS {
+                return answer;
+            }
+            tokio::task::yield_now().await;
+        }
+    };
+    let refused = tokio::time::timeout(Duration::from_secs(20), refused).await.unwrap();
+    assert_eq!(refused.headers()["retry-after"], "1");
+    assert_eq!(refused.headers()[CONTENT_TYPE], "application/problem+json");
+    assert_eq!(ask("/healthz").await.unwrap().status(), 200);
+    drop(pictures);
+    first.await.unwrap().unwrap();
+    assert_eq!(ask("/v1/networks").await.unwrap().status(), 200);
 }

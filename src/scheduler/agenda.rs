@@ -8,6 +8,7 @@ use std::time::Duration;
 use jiff::Timestamp;
 use tokio::sync::Notify;
 use tokio::task::{Id, JoinError, JoinSet};
+use tracing::Instrument;
 
 use super::departing::{Departing, Stuck};
 use crate::clock::{minus, plus};
@@ -16,6 +17,8 @@ use crate::store::{Overdue, Reads, StoreError, Waiting};
 
 /// How long a network waits after something went wrong with it, or the whole agenda.
 const PAUSE: Duration = Duration::from_secs(1);
+/// The agenda is looked at as often as this at least: a clock that was set makes other things due.
+const LOOK: Duration = Duration::from_secs(5);
 
 /// The task and what it knows.
 pub(super) struct Agenda {
@@ -50,7 +53,9 @@ impl Agenda {
     /// Starts what is due; gives the time at which something else will be.
     async fn round(&mut self) -> Result<Option<Timestamp>, Trouble> {
         let now = self.departing.clock.now();
-        self.busy.retain(|_, until| until.is_none_or(|until| until > now));
+        // Longer than a pause waits only who was to wait on a clock that was set back since.
+        let waits = |until: Timestamp| until > now && until <= plus(now, PAUSE);
+        self.busy.retain(|_, until| until.is_none_or(waits));
         let overdue = self.overdue(now).await?;
         let mut next: Vec<Timestamp> = self.busy.values().copied().flatten().collect();
         next.extend(overdue);
@@ -101,7 +106,9 @@ impl Agenda {
         let (network, id) = (departure.network_id.clone(), departure.id);
         self.busy.insert(network.clone(), None);
         let departing = self.departing.clone();
-        let task = self.under_way.spawn(async move { departing.depart(id).await });
+        let span = tracing::info_span!("departure", departure = %id, %network);
+        let task = async move { departing.depart(id).await };
+        let task = self.under_way.spawn(task.instrument(span));
         self.tasks.insert(task.id(), (network, id));
     }
 
@@ -119,6 +126,7 @@ impl Agenda {
             () = self.wake.notified() => {}
             Some(ended) = self.under_way.join_next_with_id() => self.ended(ended),
             () = due => {}
+            () = clock.pause(LOOK) => {}
         }
     }
 

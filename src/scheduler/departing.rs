@@ -10,11 +10,11 @@ use voltour_solver::solvers::solve;
 
 use super::Settings;
 use crate::clock::{Clock, minus, seconds};
-use crate::domain::{Call, CancelDeparture, ClientId, DepartureId, Refusal};
+use crate::domain::{Call, CancelDeparture, ClientId, DepartureId, DepartureState, Refusal};
 use crate::metrics::Metrics;
 use crate::planner::{self, Contest, PlanError, Planned, PolicyPart};
 use crate::policy::Shelf;
-use crate::store::{Batch, Cancel, CloseBatch, Closing, StorePlan, Storing, Writer};
+use crate::store::{Batch, Cancel, CloseBatch, Closing, Reads, StorePlan, Storing, Writer};
 
 /// What is left of the time before second 0 for storing the plan, where the lead has so much to spare.
 const TO_STORE: Duration = Duration::from_millis(500);
@@ -23,6 +23,7 @@ const TO_STORE: Duration = Duration::from_millis(500);
 #[derive(Clone, Debug)]
 pub(super) struct Departing {
     pub writer: Writer,
+    pub reads: Reads,
     pub clock: Arc<dyn Clock>,
     pub settings: Settings,
     /// The policies in use when a plan begins are its policies.
@@ -53,15 +54,16 @@ impl Departing {
             let Some(_thread) = self.thread().await else { return Ok(()) };
             let Some(batch) = self.close(id, lead).await? else { return Ok(()) };
             let (start, closed) = (batch.start, self.clock.now());
-            let Planned { new: plan, policy } = match self.plan(*batch, lead).await {
+            let planned = match self.plan(*batch, lead).await {
                 Err(Stuck::Plan(error)) => return self.give_up(id, &error).await,
-                plan => plan?,
+                planned => planned?,
             };
+            let Some(Planned { new: plan, policy }) = planned else { return Ok(()) };
             let took_s = seconds(closed, self.clock.now()).max(0.0);
             let (status, gap, solver) = (plan.status, plan.gap(), plan.solver.clone());
             match self.writer.call(StorePlan { departure_id: id, start, plan }).await? {
                 Storing::Stored(tour) => {
-                    self.metrics.planned(&solver, status, gap, took_s);
+                    self.metrics.planning.planned(&solver, status, gap, took_s);
                     let status = status.name();
                     tracing::info!(departure = %id, %tour, %start, status, solver, gap, "planned");
                     self.tell(id, &policy);
@@ -80,6 +82,7 @@ impl Departing {
 
     /// A planner's thread, unless the service ends.
     async fn thread(&self) -> Option<tokio::sync::OwnedSemaphorePermit> {
+        let _waits = self.metrics.planning.waiting.enter();
         tokio::select! {
             biased;
             () = self.cancel.cancelled() => None,
@@ -104,7 +107,9 @@ impl Departing {
         }
     }
 
-    async fn plan(&self, batch: Batch, lead: Duration) -> Result<Planned, Stuck> {
+    /// Plans a batch; none where the departure was called off meanwhile.
+    async fn plan(&self, batch: Batch, lead: Duration) -> Result<Option<Planned>, Stuck> {
+        let _runs = self.metrics.planning.running.enter();
         let budget = self.settings.budget;
         // A lead that is hardly longer than the budget must not end the search before it begins.
         let spare = lead.saturating_sub(budget);
@@ -116,15 +121,45 @@ impl Departing {
             budget,
             latest: minus(batch.start, TO_STORE.min(spare / 2)),
             clock: self.clock.clone(),
-            cancel: self.cancel.clone(),
+            cancel: self.cancel.child_token(),
         };
-        Ok(tokio::task::spawn_blocking(move || planner::plan(&batch, &contest)).await??)
+        let (id, cancel) = (batch.departure.id, contest.cancel.clone());
+        let span = tracing::info_span!("plan", requests = batch.requests.len());
+        let plan = move || span.in_scope(|| planner::plan(&batch, &contest));
+        let mut thread = tokio::task::spawn_blocking(plan);
+        let planned = tokio::select! {
+            planned = &mut thread => planned,
+            () = self.called_off(id) => {
+                // The search sees it at its next look; the thread is free once it has ended.
+                cancel.cancel();
+                let _ = thread.await?;
+                tracing::info!(departure = %id, "called off while its tour was planned");
+                return Ok(None);
+            }
+        };
+        Ok(Some(planned??))
+    }
+
+    /// Ends once a departure that is closed is so no more.
+    async fn called_off(&self, id: DepartureId) {
+        let mut changes = self.writer.tour_changes();
+        loop {
+            match self.reads.departure(id).await {
+                Ok(Some(departure)) if departure.state != DepartureState::Closed => return,
+                // What becomes of it is seen at the latest when its plan is to be stored.
+                Ok(_) => {}
+                Err(error) => tracing::warn!(%error, "a departure that is planned cannot be read"),
+            }
+            if changes.changed().await.is_err() {
+                return std::future::pending().await;
+            }
+        }
     }
 
     /// Logs and counts what part the policy had.
     fn tell(&self, departure: DepartureId, policy: &PolicyPart) {
         if let Some((reason, why)) = &policy.fallback {
-            self.metrics.policy_fell_back(*reason);
+            self.metrics.planning.policy_fell_back(*reason);
             if policy.used.is_some() {
                 tracing::warn!(%departure, %reason, why, "the policy broke down, or built no tour");
             } else {
@@ -133,7 +168,7 @@ impl Departing {
             }
         }
         if let Some(winning) = policy.winning {
-            self.metrics.policy_competed(winning);
+            self.metrics.planning.policy_competed(winning);
         }
     }
 

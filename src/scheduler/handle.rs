@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use tokio::sync::{Notify, watch};
 
-use super::next_tour;
+use super::{Limits, Settings, next_tour};
 use crate::domain::{
     Announcement, Call, ChargerId, Departure, DepartureId, Network, NetworkId, NewRequest,
     NewVisit, Refusal, Request, Tour, TourId, Visit, rules,
@@ -22,13 +22,19 @@ pub struct Handle {
     writer: Writer,
     reads: Reads,
     lead: Duration,
+    limits: Limits,
     /// Wakes the scheduler where there may be something to do.
     wake: Arc<Notify>,
 }
 
 impl Handle {
-    pub(super) fn new(writer: Writer, reads: Reads, lead: Duration, wake: Arc<Notify>) -> Self {
-        Self { writer, reads, lead, wake }
+    pub(super) fn new(
+        writer: Writer,
+        reads: Reads,
+        settings: &Settings,
+        wake: Arc<Notify>,
+    ) -> Self {
+        Self { writer, reads, lead: settings.lead, limits: settings.limits, wake }
     }
 
     fn woken<T>(&self, answer: Result<T, Refusal>) -> Result<T, Refusal> {
@@ -43,23 +49,24 @@ impl Handle {
 impl Handle {
     pub async fn put_network(&self, call: Call<PutNetwork>) -> Result<Network, Refusal> {
         // A large network takes a while to judge and to compress.
-        let put = tokio::task::spawn_blocking(|| {
+        let most = self.limits.networks;
+        let put = tokio::task::spawn_blocking(move || {
             rules::network(&call.content.spec)?;
-            Put::new(call)
+            Put::new(call, most)
         });
         let put = put.await.map_err(|error| Refusal::Internal(error.to_string()))??;
-        self.writer.call(put).await
+        self.writer.offer(put).await
     }
 
     pub async fn update_trajectories(
         &self,
         call: Call<UpdateTrajectories>,
     ) -> Result<u32, Refusal> {
-        self.writer.call(UpdatePaths(call)).await
+        self.writer.offer(UpdatePaths(call)).await
     }
 
     pub async fn submit(&self, call: Call<NewRequest>) -> Result<Request, Refusal> {
-        self.writer.call(Submit::new(call)).await
+        self.writer.offer(Submit::new(call)).await
     }
 
     /// [`submit`](Self::submit) in two steps: when this returns, the request's place among the others is
@@ -68,27 +75,31 @@ impl Handle {
         &self,
         call: Call<NewRequest>,
     ) -> Result<impl Future<Output = Result<Request, Refusal>> + Send + use<>, Refusal> {
-        self.writer.enqueue(Submit::new(call)).await
+        self.writer.enqueue_soon(Submit::new(call)).await
     }
 
     pub async fn withdraw(&self, call: Call<Withdraw>) -> Result<Request, Refusal> {
-        self.writer.call(TakeBack(call)).await
+        self.writer.offer(TakeBack(call)).await
     }
 
     pub async fn announce(&self, call: Call<Announcement>) -> Result<Departure, Refusal> {
-        self.woken(self.writer.call(Announce { call, lead: self.lead }).await)
+        self.woken(
+            self.writer
+                .offer(Announce { call, lead: self.lead, most: self.limits.departures })
+                .await,
+        )
     }
 
     pub async fn cancel(&self, call: Call<CancelDeparture>) -> Result<Departure, Refusal> {
-        self.woken(self.writer.call(Cancel(call)).await)
+        self.woken(self.writer.offer(Cancel(call)).await)
     }
 
     pub async fn report_visit(&self, call: Call<NewVisit>) -> Result<Visit, Refusal> {
-        self.writer.call(ReportVisit(call)).await
+        self.writer.offer(ReportVisit(call)).await
     }
 
     pub async fn complete(&self, call: Call<TourId>) -> Result<Tour, Refusal> {
-        self.woken(self.writer.call(Complete(call)).await)
+        self.woken(self.writer.offer(Complete(call)).await)
     }
 
     /// Waits until the charger's next tour is stored; the caller bounds the wait by dropping the future.

@@ -11,4 +11,4 @@ mod tests;
 
 pub use handle::{CancelDeparture, Handle, PutNetwork, UpdateTrajectories, Withdraw};
 pub use run::{Running, start};
-pub use settings::Settings;
+pub use settings::{Limits, Settings};

@@ -50,10 +50,18 @@ pub async fn start(
     tracing::info!(waiting, "departures that wait for their plan");
     let wake = Arc::new(Notify::new());
     let Store { reads, writer, task: mut writing } = store;
-    let handle = Handle::new(writer.clone(), reads.clone(), settings.lead, wake.clone());
+    let handle = Handle::new(writer.clone(), reads.clone(), &settings, wake.clone());
     let planners = Arc::new(Semaphore::new(settings.planner_threads.clamp(1, 256)));
-    let departing =
-        Departing { writer, clock, settings, policies, metrics, planners, cancel: cancel.clone() };
+    let departing = Departing {
+        writer,
+        reads: reads.clone(),
+        clock,
+        settings,
+        policies,
+        metrics,
+        planners,
+        cancel: cancel.clone(),
+    };
     let (busy, under_way, tasks) = (HashMap::new(), JoinSet::new(), HashMap::new());
     let agenda = Agenda { reads, departing, wake, busy, under_way, tasks };
     let task = tokio::spawn(async move {

@@ -21,6 +21,23 @@ pub struct Settings {
     pub seed: u64,
     /// Departures of different networks that are planned at once.
     pub planner_threads: usize,
+    /// How much there may be.
+    pub limits: Limits,
+}
+
+/// How much there may be of what is stored.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Limits {
+    /// Networks.
+    pub networks: u32,
+    /// Departures of a network that wait for their plan.
+    pub departures: u32,
+}
+
+impl Default for Limits {
+    fn default() -> Self {
+        Self { networks: 1_000, departures: 1_000 }
+    }
 }
 
 impl Default for Settings {
@@ -33,6 +50,7 @@ impl Default for Settings {
             solver: SolverName::Auto,
             seed: 0,
             planner_threads: 2,
+            limits: Limits::default(),
         }
     }
 }

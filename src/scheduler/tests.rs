@@ -20,6 +20,8 @@ use crate::policy::{Policies, Shelf};
 use crate::store::Store;
 use crate::store::fixture::{Bench, asks, call, leaves};
 
+mod clock;
+
 /// A running scheduler whose searches end at once.
 struct Service {
     _dir: tempfile::TempDir,
@@ -224,8 +226,17 @@ impl Clock for Slow {
         self.0.now()
     }
 
+    fn ran(&self) -> Duration {
+        self.0.advance(Duration::from_secs(1));
+        self.0.ran()
+    }
+
     fn sleep_until(&self, time: Timestamp) -> Sleep<'_> {
         self.0.sleep_until(time)
+    }
+
+    fn pause(&self, length: Duration) -> Sleep<'_> {
+        self.0.pause(length)
     }
 }
 
@@ -237,6 +248,7 @@ async fn a_plan_that_comes_late_is_made_again_with_the_lead_that_it_took() {
     let (_dir, clock, store) = bench.parts();
     let departing = Departing {
         writer: store.writer.clone(),
+        reads: store.reads.clone(),
         clock: Arc::new(Slow(clock.clone())),
         settings: Settings { budget: Duration::ZERO, ..Settings::default() },
         policies: Shelf::of(Policies::none()),

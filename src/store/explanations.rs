@@ -1,5 +1,7 @@
 //! Reading explanations; and which plan is to be explained next, for the database is the queue.
 
+use sqlx::SqlitePool;
+
 use super::cells::Cells;
 use super::{Reads, StoreError};
 use crate::domain::PlanId;
@@ -50,4 +52,15 @@ impl Reads {
         let row = row.bind(NEWEST).bind(ATTEMPTS).fetch_optional(self.pool()).await?;
         row.map(|row| Cells::new("plans", &row).parsed("id")).transpose()
     }
+}
+
+/// How many plans are to be explained.
+pub(super) async fn waiting_explanations(pool: &SqlitePool) -> Result<u64, StoreError> {
+    let count = sqlx::query_scalar::<_, i64>(
+        "SELECT count(*) FROM (SELECT id FROM plans ORDER BY id DESC LIMIT ?) p \
+         LEFT JOIN explanations e ON e.plan_id = p.id \
+         WHERE e.plan_id IS NULL OR (e.document IS NULL AND e.attempts < ?)",
+    );
+    let count = count.bind(NEWEST).bind(ATTEMPTS).fetch_one(pool).await?;
+    Ok(count.unsigned_abs())
 }

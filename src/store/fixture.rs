@@ -10,7 +10,7 @@ use voltour_solver::scenario::Objective;
 
 use super::{
     Announce, Batch, Cancel, CloseBatch, Closing, Complete, NewPlan, NewStop, Put, ReportVisit,
-    Store, StorePlan, Storing, Submit, TakeBack,
+    Store, StoreError, StorePlan, Storing, Submit, TakeBack,
 };
 use crate::clock::{Clock, ManualClock, plus};
 use crate::domain::{
@@ -81,6 +81,11 @@ pub fn leaves(charger: &str, t0: Option<Timestamp>) -> Announcement {
     }
 }
 
+/// A clock that stands still at the beginning of a year.
+pub fn standing() -> Arc<ManualClock> {
+    Arc::new(ManualClock::new("2026-01-01T00:00:00Z".parse().unwrap()))
+}
+
 /// A store on a fresh database.
 pub struct Bench {
     pub dir: TempDir,
@@ -92,12 +97,15 @@ pub struct Bench {
 impl Bench {
     /// With the network `net` of [`spec`].
     pub async fn new() -> Self {
-        let dir = tempfile::tempdir().unwrap();
-        let clock = Arc::new(ManualClock::new("2026-01-01T00:00:00Z".parse().unwrap()));
-        let store = Store::open(&dir.path().join("db"), clock.clone()).await.unwrap();
-        let bench = Self { dir, clock, store, calls: 0.into() };
+        let bench = Self::over(tempfile::tempdir().unwrap(), standing()).await.unwrap();
         bench.put(spec()).await;
         bench
+    }
+
+    /// On the database in a folder, or on a new one.
+    pub async fn over(dir: TempDir, clock: Arc<ManualClock>) -> Result<Self, StoreError> {
+        let store = Store::open(&dir.path().join("db"), clock.clone()).await?;
+        Ok(Self { dir, clock, store, calls: 0.into() })
     }
 
     /// Stops the service and starts it again.
@@ -125,6 +133,11 @@ impl Bench {
         self.dir.path().join("db")
     }
 
+    /// No id of a call is one that an earlier bench on the same database has used.
+    pub fn skip_calls(&self) {
+        self.calls.store(1_000_000, std::sync::atomic::Ordering::Relaxed);
+    }
+
     /// To start a scheduler on.
     pub fn parts(self) -> (TempDir, Arc<ManualClock>, Store) {
         (self.dir, self.clock, self.store)
@@ -144,9 +157,13 @@ impl Bench {
     }
 
     pub async fn put(&self, spec: NetworkSpec) -> Network {
+        self.try_put(spec).await.unwrap()
+    }
+
+    pub async fn try_put(&self, spec: NetworkSpec) -> Result<Network, Refusal> {
         let content =
             PutNetwork { network_id: "net".parse().unwrap(), spec, expected_version: None };
-        self.store.writer.call(Put::new(call(&self.fresh(), content)).unwrap()).await.unwrap()
+        self.store.writer.call(Put::new(call(&self.fresh(), content), 1_000).unwrap()).await
     }
 
     pub async fn try_submit(&self, id: &str, asked: NewRequest) -> Result<Request, Refusal> {
@@ -169,7 +186,7 @@ impl Bench {
     }
 
     pub async fn try_announce(&self, id: &str, what: Announcement) -> Result<Departure, Refusal> {
-        self.store.writer.call(Announce { call: call(id, what), lead: LEAD }).await
+        self.store.writer.call(Announce { call: call(id, what), lead: LEAD, most: 1_000 }).await
     }
 
     /// As soon as can be.
@@ -178,8 +195,12 @@ impl Bench {
     }
 
     pub async fn close(&self, id: DepartureId) -> Closing {
+        self.try_close(id).await.unwrap()
+    }
+
+    pub async fn try_close(&self, id: DepartureId) -> Result<Closing, Refusal> {
         let close = CloseBatch { departure_id: id, lead: LEAD, max_late: MAX_LATE };
-        self.store.writer.call(close).await.unwrap()
+        self.store.writer.call(close).await
     }
 
     pub async fn closed(&self, id: DepartureId) -> Batch {

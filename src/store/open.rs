@@ -7,11 +7,12 @@ use std::time::Duration;
 
 use sqlx::sqlite::{SqliteConnectOptions, SqliteJournalMode, SqlitePoolOptions, SqliteSynchronous};
 use sqlx::{ConnectOptions, Connection, SqliteConnection};
+use tokio::sync::watch;
 
 use super::lock::Lock;
 use super::writer::{self, Writer};
-use super::{Reads, StoreError};
-use crate::clock::Clock;
+use super::{Reads, StoreError, Trouble, schema};
+use crate::clock::{Clock, Ids};
 
 /// Connections that read at once.
 const READERS: u32 = 8;
@@ -35,12 +36,12 @@ impl Store {
     /// Another process has it open, or it cannot be opened, migrated or verified.
     pub async fn open(path: &Path, clock: Arc<dyn Clock>) -> Result<Self, StoreError> {
         let database = Database { path: path.to_owned(), _lock: Lock::take(path)? };
-        let mut conn = database.connect().await?;
-        Self::migrate(&mut conn).await?;
-        let change = last_change(&mut conn).await?;
+        let (mut conn, change) = database.open().await.map_err(|error| damaged(path, error))?;
         let pool = SqlitePoolOptions::new().max_connections(READERS).acquire_timeout(PATIENCE);
-        let reads = Reads::new(pool.connect_with(options(path).read_only(true)).await?);
-        let (writer, task) = writer::spawn(database, conn, change, clock, reads.clone());
+        let (tell, trouble) = watch::channel(None);
+        let reads = Reads::new(pool.connect_with(options(path).read_only(true)).await?, trouble);
+        let ids = last_id(&mut conn).await?;
+        let (writer, task) = writer::spawn(database, conn, change, clock, reads.clone(), tell, ids);
         Ok(Self { reads, writer, task })
     }
 
@@ -51,11 +52,6 @@ impl Store {
     pub(crate) async fn close(self) -> Result<(), StoreError> {
         self.task.stop.cancel();
         self.task.ended.await.unwrap_or_else(|error| Err(StoreError::Task(error.to_string())))
-    }
-
-    /// Brings the schema up to date.
-    pub(super) async fn migrate(conn: &mut SqliteConnection) -> Result<(), StoreError> {
-        Ok(sqlx::migrate!("migrations/sqlite").run(conn).await?)
     }
 }
 
@@ -82,19 +78,23 @@ pub(super) struct Database {
 }
 
 impl Database {
-    /// The connection that writes.
-    pub async fn connect(&self) -> Result<SqliteConnection, StoreError> {
-        connect(&self.path, true).await
+    /// The connection that writes, and the last change. All of the database is looked at first: what is
+    /// damaged must not be built upon.
+    pub async fn open(&self) -> Result<(SqliteConnection, u64), StoreError> {
+        if self.path.exists() {
+            check(&self.path).await?;
+        }
+        let mut conn = connect(&self.path, true).await?;
+        schema::bring_up(&mut conn).await?;
+        let change = last_change(&mut conn).await?;
+        Ok((conn, change))
     }
 
     /// Opens the database again after a failed write. What was acknowledged must be there: a last
     /// change before `acknowledged` is a database that has lost something.
     pub async fn reopen(&self, acknowledged: u64) -> Result<(SqliteConnection, u64), StoreError> {
+        check(&self.path).await?;
         let mut conn = connect(&self.path, false).await?;
-        let verdict: String = sqlx::query_scalar("PRAGMA quick_check").fetch_one(&mut conn).await?;
-        if verdict != "ok" {
-            return Err(StoreError::Verification(verdict));
-        }
         let change = last_change(&mut conn).await?;
         if change < acknowledged {
             let reason = format!("the last change is {change}, {acknowledged} was acknowledged");
@@ -103,7 +103,26 @@ impl Database {
         // What the failed transaction wrote may have been kept all the same, unacknowledged. Writing
         // it back into the file before anything else shows that syncing works again.
         sqlx::query("PRAGMA wal_checkpoint(TRUNCATE)").execute(&mut conn).await?;
+        // A transaction of one page, synced, which changes nothing: there is room, and nobody holds a lock.
+        sqlx::query("PRAGMA user_version = 0").execute(&mut conn).await?;
         Ok((conn, change))
+    }
+}
+
+/// Looks at every page, on a connection that is closed again: what it has read is not to be believed later.
+async fn check(path: &Path) -> Result<(), StoreError> {
+    let mut conn = connect(path, false).await?;
+    let verdict = sqlx::query_scalar("PRAGMA quick_check(1)").fetch_one(&mut conn).await;
+    conn.close().await?;
+    let verdict: String = verdict?;
+    if verdict == "ok" { Ok(()) } else { Err(StoreError::Verification(verdict)) }
+}
+
+/// Says so of an error that damage is behind.
+fn damaged(path: &Path, error: StoreError) -> StoreError {
+    match Trouble::of(&error) {
+        Some(Trouble::Damaged) => StoreError::damaged(path, error),
+        _ => error,
     }
 }
 
@@ -111,6 +130,24 @@ impl Database {
 pub(super) async fn close(mut conn: SqliteConnection) -> Result<(), StoreError> {
     sqlx::query("PRAGMA wal_checkpoint(TRUNCATE)").execute(&mut conn).await?;
     Ok(conn.close().await?)
+}
+
+/// Goes on after the ids that the service made before, also where the clock was set back since.
+async fn last_id(conn: &mut SqliteConnection) -> Result<Ids, StoreError> {
+    let ids = Ids::default();
+    for sql in [
+        "SELECT max(id) FROM requests",
+        "SELECT max(id) FROM departures",
+        "SELECT max(id) FROM plans",
+        "SELECT max(id) FROM tours",
+        "SELECT max(id) FROM visits",
+    ] {
+        let last: Option<String> = sqlx::query_scalar(sql).fetch_one(&mut *conn).await?;
+        if let Some(last) = last.and_then(|last| last.parse().ok()) {
+            ids.go_on_after(last);
+        }
+    }
+    Ok(ids)
 }
 
 async fn last_change(conn: &mut SqliteConnection) -> Result<u64, StoreError> {

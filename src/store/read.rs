@@ -4,13 +4,14 @@ use jiff::Timestamp;
 use serde::Serialize;
 use sqlx::sqlite::SqliteRow;
 use sqlx::{AssertSqlSafe, QueryBuilder, Sqlite, SqliteConnection, SqlitePool};
+use tokio::sync::watch;
 use voltour_solver::plan::Status;
 
-use super::StoreError;
 use super::cells::{Cells, signed};
 use super::page::{DepartureFilter, Listed, Page, PlanFilter, RequestFilter};
 use super::rows::{self, departure_columns, request_columns, tour_columns};
 use super::words::Word;
+use super::{StoreError, Trouble};
 use crate::domain::{
     ChargerId, Departure, DepartureId, Network, NetworkId, NetworkScope, PlanId, Request,
     RequestId, Tour, TourId,
@@ -20,6 +21,7 @@ use crate::domain::{
 #[derive(Clone, Debug)]
 pub struct Reads {
     pool: SqlitePool,
+    trouble: watch::Receiver<Option<Trouble>>,
 }
 
 /// A plan in a list.
@@ -59,8 +61,8 @@ pub struct Waiting {
 type Select = QueryBuilder<Sqlite>;
 
 impl Reads {
-    pub(super) fn new(pool: SqlitePool) -> Self {
-        Self { pool }
+    pub(super) fn new(pool: SqlitePool, trouble: watch::Receiver<Option<Trouble>>) -> Self {
+        Self { pool, trouble }
     }
 
     pub(super) fn pool(&self) -> &SqlitePool {
@@ -333,6 +335,12 @@ impl Reads {
     pub async fn ping(&self) -> Result<(), StoreError> {
         sqlx::query("SELECT 1").execute(&self.pool).await?;
         Ok(())
+    }
+
+    /// Why nothing can be written now, if that is so. What is stored can be read all the same, but for a
+    /// damaged database.
+    pub fn trouble(&self) -> watch::Receiver<Option<Trouble>> {
+        self.trouble.clone()
     }
 
     /// The departures that are not planned yet, a network's in the order of (t0, id).

@@ -13,7 +13,7 @@ use super::cells::{Cells, text};
 use super::lock::Lock;
 use super::tokens::{MOST, grant};
 use super::words::Word;
-use super::{Store, StoreError, open};
+use super::{StoreError, open, schema};
 use crate::domain::{NetworkScope, Token, TokenHash, TokenName};
 
 /// The tokens of a database, for the command line.
@@ -42,7 +42,7 @@ impl TokenFile {
         };
         let mut conn = open::connect(path, lock.is_some()).await?;
         if lock.is_some() {
-            Store::migrate(&mut conn).await?;
+            schema::bring_up(&mut conn).await?;
         } else {
             // The schema of a running service is the service's to change.
             let found =

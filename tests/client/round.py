@@ -29,6 +29,7 @@ from grpc_health.v1 import health_pb2, health_pb2_grpc
 from grpc_reflection.v1alpha import reflection_pb2
 from grpc_status import rpc_status
 from grpc_tools import protoc
+from results import Results
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PATIENCE = 30  # seconds; a passing run never waits so long
@@ -43,17 +44,6 @@ path = {store}
 budget = "150ms"
 lead = "400ms"
 """
-
-
-class Results:
-    """What held and what did not."""
-
-    def __init__(self):
-        self.passed = self.failed = 0
-
-    def check(self, what, holds, found=""):
-        self.passed, self.failed = self.passed + bool(holds), self.failed + (not holds)
-        print(("ok    " if holds else "FAILED"), what, "" if holds else f": {found}", flush=True)
 
 
 def generate(out):
@@ -328,8 +318,7 @@ def main():
         if results.failed:
             print(f"--- the server's log\n{server.logged()}---")
         server.log.close()
-    print(f"{results.passed} passed, {results.failed} failed")
-    return 1 if results.failed else 0
+    return results.close()
 
 
 if __name__ == "__main__":

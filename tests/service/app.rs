@@ -79,10 +79,16 @@ impl TestApp {
 
     /// A server over an empty database.
     pub async fn with(settings: Settings) -> Self {
+        Self::over(settings, |_| {}).await
+    }
+
+    /// A server over a database that `make` has put at its path.
+    pub async fn over(settings: Settings, make: impl FnOnce(&Path)) -> Self {
         let dir = tempfile::tempdir().expect("a temporary directory");
         let channel = Endpoint::from_static("http://127.0.0.1:1").connect_lazy();
         let mut app = Self { dir, child: None, channel, grpc: String::new(), rest: String::new() };
         app.configure(settings);
+        make(&app.database());
         app.launch().await;
         app
     }
@@ -136,11 +142,25 @@ impl TestApp {
         })
     }
 
+    /// Waits until the process ends by itself.
+    pub async fn ended(&mut self) -> ExitStatus {
+        let mut child = self.child.take().expect("a running server");
+        wait_exit(&mut child).await.unwrap_or_else(|| {
+            self.child = Some(child);
+            self.fail("does not end")
+        })
+    }
+
     /// Asks the process to load its policies again.
     pub fn sighup(&self) {
-        let pid = self.child.as_ref().expect("a running server").id().to_string();
+        let pid = self.pid().to_string();
         let sent = Command::new("kill").args(["-HUP", &pid]).status().expect("kill runs");
         assert!(sent.success(), "SIGHUP was not sent");
+    }
+
+    /// The process's number.
+    pub fn pid(&self) -> u32 {
+        self.child.as_ref().expect("a running server").id()
     }
 
     /// The database file.

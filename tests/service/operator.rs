@@ -104,3 +104,13 @@ async fn an_absent_service_is_said_in_one_line() {
     assert_ne!(refused.status.code(), Some(0));
     assert!(said.contains(&app.grpc) && said.lines().count() == 1, "{said}");
 }
+
+#[tokio::test]
+async fn health_is_an_exit_code() {
+    let mut app = TestApp::start().await;
+    assert_eq!(voltour(&app, &["health"]).status.code(), Some(0));
+    app.kill9();
+    let dead = voltour(&app, &["health"]);
+    assert_eq!(dead.status.code(), Some(1));
+    assert!(String::from_utf8_lossy(&dead.stderr).contains("no service answers"));
+}

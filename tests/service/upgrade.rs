@@ -1,6 +1,7 @@
 //! A database of the first version, with data: it opens, keeps everything, and what is new works on it.
 
-use std::path::Path;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
 
 use sqlx::migrate::Migrator;
 use sqlx::sqlite::SqliteConnectOptions;
@@ -13,12 +14,20 @@ use crate::explanations::{explanation, not_yet};
 use crate::field::{departure, line};
 use crate::time::from_now;
 
-/// A database as the first version made it: its schema alone, and every row of `from` that fits in there.
-async fn first_version(from: &Path, to: &Path) {
+/// The migrations, by version.
+pub fn migrations() -> BTreeMap<u32, PathBuf> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("migrations/sqlite");
+    let files = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    let version = |file: &Path| file.file_name().unwrap().to_str().unwrap()[..4].parse().unwrap();
+    files.map(|file| (version(&file), file)).collect()
+}
+
+/// A database as an earlier version made it: its schema alone, and every row of `from` that fits in there.
+pub async fn of_version(version: u32, from: &Path, to: &Path) {
     let only = tempfile::tempdir().unwrap();
-    let first = "0001_init.sql";
-    let migrations = Path::new(env!("CARGO_MANIFEST_DIR")).join("migrations/sqlite");
-    std::fs::copy(migrations.join(first), only.path().join(first)).unwrap();
+    for (_, file) in migrations().range(..=version) {
+        std::fs::copy(file, only.path().join(file.file_name().unwrap())).unwrap();
+    }
     // Tables are filled in no special order.
     let options = SqliteConnectOptions::new().filename(to).foreign_keys(false);
     let mut conn = options.create_if_missing(true).connect().await.unwrap();
@@ -59,7 +68,7 @@ async fn a_database_of_the_first_version_opens_with_all_that_is_in_it() {
     assert_eq!(app.sigterm().await.code(), Some(0));
 
     let old = app.file("old.db");
-    first_version(&app.database(), &old).await;
+    of_version(1, &app.database(), &old).await;
     for end in ["-wal", "-shm"] {
         // Left only by a connection that did not close.
         let _ = std::fs::remove_file(format!("{}{end}", app.database().display()));

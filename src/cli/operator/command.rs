@@ -4,7 +4,7 @@ use std::process::ExitCode;
 
 use clap::Subcommand;
 
-use super::{charger, depart, network, request, tour};
+use super::{charger, depart, health, network, request, tour};
 use crate::cli::Failure;
 use crate::cli::serve::block_on;
 
@@ -25,6 +25,8 @@ pub enum Command {
     /// Tell a running service what became of a charger
     #[command(subcommand)]
     Charger(charger::Command),
+    /// Ask whether a running service takes calls, by the exit code
+    Health(Box<health::Args>),
 }
 
 /// Runs a command.
@@ -36,6 +38,7 @@ pub fn run(command: Command) -> Result<ExitCode, Failure> {
             Command::Depart(args) => depart::run(*args).await,
             Command::Tour(command) => tour::run(command).await,
             Command::Charger(command) => charger::run(command).await,
+            Command::Health(args) => health::run(*args).await,
         }
     })
 }

@@ -5,6 +5,7 @@ mod charger;
 mod client;
 mod command;
 mod depart;
+mod health;
 mod ndjson;
 mod network;
 mod remote;

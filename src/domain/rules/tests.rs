@@ -189,3 +189,20 @@ fn a_visit() {
     assert_eq!(fields(super::visit(&visit)), ["charge_j", "departed_at", "note"]);
     assert_eq!(fields(cancellation(&"x".repeat(257))), ["reason"]);
 }
+
+#[test]
+fn a_network_has_so_many_sensors_and_no_more() {
+    let with = |sensors: usize| {
+        let mut spec = spec();
+        let model = spec.sensors[0].clone();
+        let sensor = |i: usize| {
+            let mut sensor = model.clone();
+            sensor.id = format!("s{i}").parse().unwrap();
+            sensor
+        };
+        spec.sensors = (0..sensors).map(sensor).collect();
+        fields(network(&spec))
+    };
+    assert!(with(20_000).is_empty());
+    assert_eq!(with(20_001), ["spec.sensors"]);
+}

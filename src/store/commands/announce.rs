@@ -9,9 +9,6 @@ use crate::store::cells::{Cells, text};
 use crate::store::read;
 use crate::store::writer::{Command, Failure, Writing};
 
-/// Departures of a network that may wait for their plan.
-const WAITING: i64 = 1_000;
-
 /// A departure to announce.
 #[derive(Debug)]
 pub struct Announce {
@@ -19,6 +16,8 @@ pub struct Announce {
     pub call: Call<Announcement>,
     /// From the close of the batch to second 0.
     pub lead: Duration,
+    /// Departures of a network that may wait for their plan.
+    pub most: u32,
 }
 
 impl Announce {
@@ -54,9 +53,10 @@ impl Command for Announce {
             "SELECT count(*) FROM departures \
              WHERE network_id = ? AND state IN ('announced', 'closed')",
         );
-        if waiting.bind(network.id.as_str()).fetch_one(&mut w.conn).await? >= WAITING {
-            let reason = format!("{WAITING} departures of the network wait for their plan already");
-            return Err(Refusal::ResourceExhausted(reason).into());
+        if waiting.bind(network.id.as_str()).fetch_one(&mut w.conn).await? >= i64::from(self.most) {
+            let most = self.most;
+            let reason = format!("{most} departures of the network wait for their plan already");
+            return Err(Refusal::exhausted("limits.departures", reason).into());
         }
         let id = DepartureId(w.id());
         let t0 = announced.t0.unwrap_or_else(|| plus(w.now, self.lead));

@@ -133,7 +133,10 @@ impl Command for CloseBatch {
         };
         let candidates = match again {
             true => frozen(w, &departure).await?,
-            false => open(w, &network).await?,
+            false => {
+                unexpire(w, &network, start).await?;
+                open(w, &network).await?
+            }
         };
         let late = |request: &Request| request.asked.deadline.is_some_and(|at| at < start);
         let (expired, requests): (Vec<_>, Vec<_>) = candidates.into_iter().partition(late);
@@ -190,6 +193,36 @@ async fn open(w: &mut Writing, network: &KnownNetwork) -> Result<Vec<Request>, S
         Err(_) => true,
     };
     requests.filter(known).collect()
+}
+
+/// Opens what expired at a time that is still to come: the clock was set forward then, and back since. Only the
+/// last request of a sensor, for which nothing was done since, is meant: that is the one that it died of.
+async fn unexpire(
+    w: &mut Writing,
+    network: &KnownNetwork,
+    start: Timestamp,
+) -> Result<(), StoreError> {
+    let rows = sqlx::query(
+        "SELECT d.sensor_id, d.request_id FROM dead_sensors d JOIN requests r ON r.id = d.request_id \
+         WHERE d.network_id = ? AND d.since_us > ? AND r.state = 'expired' AND r.deadline_us >= ? \
+         AND NOT EXISTS (SELECT 1 FROM requests o WHERE o.network_id = d.network_id \
+         AND o.sensor_id = d.sensor_id AND o.state = 'open') ORDER BY r.id",
+    );
+    let rows = rows.bind(network.id.as_str()).bind(w.now_us()).bind(start.as_microsecond());
+    for row in rows.fetch_all(&mut w.conn).await? {
+        let cells = Cells::new("dead_sensors", &row);
+        let (id, sensor): (RequestId, SensorId) =
+            (cells.parsed("request_id")?, cells.parsed("sensor_id")?);
+        tracing::warn!(request = %id, "expired by a clock that was ahead: open again");
+        step(w, &[id], RequestState::Expired, RequestState::Open, None).await?;
+        sqlx::query("DELETE FROM dead_sensors WHERE network_id = ? AND sensor_id = ?")
+            .bind(network.id.as_str())
+            .bind(sensor.as_str())
+            .execute(&mut w.conn)
+            .await?;
+        w.networks.revived(&network.id, &sensor);
+    }
+    Ok(())
 }
 
 /// Ends requests whose deadline is before second 0; their sensors are taken for dead, unless a newer

@@ -53,6 +53,9 @@ pub(super) async fn of_departure(
     .execute(&mut w.conn)
     .await?;
     w.took_changes(done.rows_affected());
+    if done.rows_affected() > 0 {
+        w.tally.ended.push(end);
+    }
     w.tours_moved = true;
     reopen::all(w, id).await
 }

@@ -17,6 +17,7 @@ pub struct Put {
     call: Call<PutNetwork>,
     fingerprint: Fingerprint,
     spec: Vec<u8>,
+    most: u32,
 }
 
 /// What is kept of the answer.
@@ -26,16 +27,26 @@ struct Answer {
 }
 
 impl Put {
-    /// Compresses the spec; it may take a while.
+    /// Compresses the spec; it may take a while. There may be `most` networks.
     ///
     /// # Errors
     /// It cannot be compressed.
-    pub fn new(call: Call<PutNetwork>) -> Result<Self, Refusal> {
+    pub fn new(call: Call<PutNetwork>, most: u32) -> Result<Self, Refusal> {
         let failed =
             |error: String| Refusal::Internal(format!("the spec cannot be packed: {error}"));
         let json = serde_json::to_vec(&call.content.spec).map_err(|e| failed(e.to_string()))?;
         let spec = pack(&json).map_err(|error| failed(error.to_string()))?;
-        Ok(Self { fingerprint: call.fingerprint(), spec, call })
+        Ok(Self { fingerprint: call.fingerprint(), spec, call, most })
+    }
+
+    /// Whether there may be one more network.
+    async fn has_room(&self, w: &mut Writing) -> Result<(), Failure> {
+        let count = sqlx::query_scalar::<_, i64>("SELECT count(*) FROM networks");
+        if count.fetch_one(&mut w.conn).await? < i64::from(self.most) {
+            return Ok(());
+        }
+        let reason = format!("there are {} networks, the most at once", self.most);
+        Err(Refusal::exhausted("limits.networks", reason).into())
     }
 
     async fn store(&self, w: &mut Writing, version: u64) -> Result<(), Failure> {
@@ -105,6 +116,9 @@ impl Command for Put {
         if let Some(expected) = expected_version.filter(|expected| *expected != version) {
             let reason = format!("the present version is {version}, {expected} was expected");
             return Err(Refusal::Aborted(reason).into());
+        }
+        if present.is_none() {
+            self.has_room(w).await?;
         }
         let unchanged = |network: &KnownNetwork| Arc::as_ref(&network.spec) == spec;
         let version = match present.as_ref().is_some_and(unchanged) {

@@ -123,7 +123,9 @@ impl Command for Submit {
         let network = w.network(&asked.network_id).await?;
         if let Err(refusal) = rules::request(&network, asked, w.now) {
             // What was taken once is answered the same again, whatever the rules say by now.
-            return self.before(w).await?.ok_or(Failure::Refused(refusal));
+            let before = self.before(w).await?.ok_or(Failure::Refused(refusal))?;
+            w.tally.duplicates += 1;
+            return Ok(before);
         }
         let mut request = self.request(w);
         if w.networks.perhaps_open(&asked.network_id, &asked.sensor_id) {
@@ -131,6 +133,7 @@ impl Command for Submit {
         }
         if !self.insert(w, &mut request).await? {
             if let Some(before) = self.before(w).await? {
+                w.tally.duplicates += 1;
                 return Ok(before);
             }
             self.supersede(w).await?;
@@ -140,6 +143,7 @@ impl Command for Submit {
                 return Err(StoreError::row("requests", reason).into());
             }
         }
+        w.tally.accepted += 1;
         w.networks.opened(&asked.network_id, &asked.sensor_id);
         w.revive(&asked.network_id, &asked.sensor_id).await?;
         Ok(request)

@@ -4,9 +4,11 @@ use std::future::Future;
 use std::pin::Pin;
 
 use tokio::sync::oneshot;
+use tracing::{Instrument, Span};
 
 use super::Writing;
 use crate::domain::Refusal;
+use crate::metrics::Entered;
 use crate::store::StoreError;
 
 /// Why a command was not applied.
@@ -68,13 +70,27 @@ pub(super) struct Asked<C: Command> {
     command: C,
     kept: Option<Result<C::Answer, Refusal>>,
     caller: oneshot::Sender<Result<C::Answer, Refusal>>,
+    /// In the span of its caller, from now until it is answered.
+    span: Span,
+    /// Counted as on its way until it is answered.
+    _counted: Entered,
 }
 
 impl<C: Command> Asked<C> {
-    pub fn new(command: C) -> (Self, oneshot::Receiver<Result<C::Answer, Refusal>>) {
+    pub fn new(
+        command: C,
+        counted: Entered,
+    ) -> (Self, oneshot::Receiver<Result<C::Answer, Refusal>>) {
         let (caller, answer) = oneshot::channel();
-        (Self { command, kept: None, caller }, answer)
+        let span = tracing::debug_span!("command", otel.name = name::<C>());
+        (Self { command, kept: None, caller, span, _counted: counted }, answer)
     }
+}
+
+/// What a command is called, without its module.
+fn name<C>() -> &'static str {
+    let path = std::any::type_name::<C>();
+    path.rsplit("::").next().unwrap_or(path)
 }
 
 impl<C: Command> Job for Asked<C> {
@@ -82,14 +98,22 @@ impl<C: Command> Job for Asked<C> {
         &'a mut self,
         writing: &'a mut Writing,
     ) -> Pin<Box<dyn Future<Output = Result<(), StoreError>> + Send + 'a>> {
-        Box::pin(async move {
+        // Nobody waits for it any more: the call was given up, or its time is over.
+        if self.caller.is_closed() {
+            return Box::pin(std::future::ready(Ok(())));
+        }
+        // Its own span is its caller's; the transaction is that of many.
+        self.span.follows_from(Span::current());
+        let span = tracing::debug_span!(parent: &self.span, "apply");
+        let applied = async move {
             self.kept = Some(match self.command.apply(writing).await {
                 Ok(answer) => Ok(answer),
                 Err(Failure::Refused(refusal)) => Err(refusal),
                 Err(Failure::Broken(error)) => return Err(error),
             });
             Ok(())
-        })
+        };
+        Box::pin(applied.instrument(span))
     }
 
     // A caller that has gone away does not want the answer.

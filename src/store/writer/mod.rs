@@ -2,6 +2,7 @@
 //! transaction, commits, and only then answers each.
 
 mod job;
+mod tally;
 mod task;
 #[cfg(test)]
 mod tests;

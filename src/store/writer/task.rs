@@ -1,5 +1,6 @@
 //! The loop of the writer, its handle, and what it does when the database fails.
 
+use std::convert::Infallible;
 use std::fmt;
 use std::future::Future;
 use std::sync::Arc;
@@ -9,20 +10,28 @@ use sqlx::SqliteConnection;
 use tokio::sync::{mpsc, watch};
 use tokio::task::JoinHandle;
 use tokio_util::sync::CancellationToken;
+use tracing::Instrument;
 
 use super::job::{Asked, Command, Job};
 use super::writing::Writing;
-use crate::clock::{Clock, Ids, plus};
+use crate::clock::{Clock, Ids, seconds, unix_s};
 use crate::domain::Refusal;
+use crate::metrics::WriterMetrics;
 use crate::store::open::{self, Database};
-use crate::store::{Reads, StoreError};
+use crate::store::{Reads, StoreError, Trouble};
 
-/// Commands that may wait for the writer; more wait in their callers.
-const QUEUE: usize = 4_096;
+/// Commands that may wait for the writer.
+pub(super) const QUEUE: usize = 4_096;
+/// A caller from outside waits so long for room among them.
+const ROOM: Duration = Duration::from_secs(1);
 /// Commands in one transaction at most.
 const GROUP: usize = 1_000;
-/// How often a database that failed is opened again before the writer gives up.
-const REOPENINGS: u32 = 10;
+/// How often a database that is damaged is looked at before the writer gives up.
+const LOOKS: u32 = 3;
+/// The first wait after a database that failed could not be opened again; each is twice the one before.
+const FIRST_PAUSE: Duration = Duration::from_millis(50);
+/// And the longest.
+const LONGEST_PAUSE: Duration = Duration::from_secs(10);
 
 /// The handle of the writer; cheap to clone.
 #[derive(Clone)]
@@ -30,6 +39,7 @@ pub struct Writer {
     queue: mpsc::Sender<Box<dyn Job>>,
     committed: watch::Receiver<u64>,
     tours: watch::Receiver<u64>,
+    metrics: WriterMetrics,
 }
 
 impl fmt::Debug for Writer {
@@ -39,7 +49,8 @@ impl fmt::Debug for Writer {
 }
 
 impl Writer {
-    /// Applies a command; its answer comes after the commit. Waits while the queue is full.
+    /// Applies a command; its answer comes after the commit. Waits while the queue is full: for the service's own
+    /// commands, of which there are few.
     pub(crate) async fn call<C: Command>(&self, command: C) -> Result<C::Answer, Refusal> {
         self.enqueue(command).await?.await
     }
@@ -51,9 +62,37 @@ impl Writer {
         command: C,
     ) -> Result<impl Future<Output = Result<C::Answer, Refusal>> + Send + use<C>, Refusal> {
         let closed = || Refusal::Unavailable("the service is shutting down".into());
-        let (job, answer) = Asked::new(command);
+        let (job, answer) = Asked::new(command, self.metrics.commands.enter());
         self.queue.send(Box::new(job)).await.map_err(|_| closed())?;
         Ok(async move { answer.await.unwrap_or_else(|_| Err(closed())) })
+    }
+
+    /// [`call`](Self::call) for callers from outside: they wait for room for a moment, and are refused then.
+    pub(crate) async fn offer<C: Command>(&self, command: C) -> Result<C::Answer, Refusal> {
+        self.enqueue_soon(command).await?.await
+    }
+
+    /// [`enqueue`](Self::enqueue) for callers from outside.
+    pub(crate) async fn enqueue_soon<C: Command>(
+        &self,
+        command: C,
+    ) -> Result<impl Future<Output = Result<C::Answer, Refusal>> + Send + use<C>, Refusal> {
+        let queued = tokio::time::timeout(ROOM, self.enqueue(command)).await;
+        queued.map_err(|_| {
+            let reason = format!("{QUEUE} commands wait for the database, the most at once");
+            Refusal::exhausted("the queue of the database", reason)
+        })?
+    }
+
+    /// How many commands more may wait.
+    #[cfg(test)]
+    pub(super) fn room(&self) -> usize {
+        self.queue.capacity()
+    }
+
+    /// What it counts.
+    pub fn metrics(&self) -> &WriterMetrics {
+        &self.metrics
     }
 
     /// The number of the last committed change.
@@ -83,13 +122,22 @@ pub(in crate::store) fn spawn(
     change: u64,
     clock: Arc<dyn Clock>,
     reads: Reads,
+    trouble: watch::Sender<Option<Trouble>>,
+    ids: Ids,
 ) -> (Writer, Task) {
     let (queue, jobs) = mpsc::channel(QUEUE);
     let (committed, tours) = (watch::Sender::new(change), watch::Sender::new(change));
-    let writer = Writer { queue, committed: committed.subscribe(), tours: tours.subscribe() };
+    let metrics = WriterMetrics::default();
+    let writer = Writer {
+        queue,
+        committed: committed.subscribe(),
+        tours: tours.subscribe(),
+        metrics: metrics.clone(),
+    };
     let stop = CancellationToken::new();
-    let writing = Writing::new(conn, change, clock, Ids::default());
-    let work = Work { database, jobs, committed, tours, reads, stop: stop.clone() };
+    let writing = Writing::new(conn, change, clock, ids);
+    let stopped = stop.clone();
+    let work = Work { database, jobs, committed, tours, trouble, reads, metrics, stop: stopped };
     (writer, Task { stop, ended: tokio::spawn(work.run(writing)) })
 }
 
@@ -98,7 +146,9 @@ struct Work {
     jobs: mpsc::Receiver<Box<dyn Job>>,
     committed: watch::Sender<u64>,
     tours: watch::Sender<u64>,
+    trouble: watch::Sender<Option<Trouble>>,
     reads: Reads,
+    metrics: WriterMetrics,
     stop: CancellationToken,
 }
 
@@ -114,7 +164,8 @@ impl Work {
     async fn run(mut self, mut writing: Writing) -> Result<(), StoreError> {
         let mut group = Vec::with_capacity(GROUP);
         while self.next(&mut group).await {
-            let fault = match self.attempt(&mut group, &mut writing).await {
+            let span = tracing::debug_span!("transaction", commands = group.len());
+            let fault = match self.attempt(&mut group, &mut writing).instrument(span).await {
                 Ok(()) => {
                     group.drain(..).for_each(Job::answer);
                     continue;
@@ -123,9 +174,11 @@ impl Work {
                 Err(Fault::Database(error)) => Err(error),
             };
             if let Err(error) = fault {
-                tracing::error!(%error, commands = group.len(), "a transaction failed, reopening the database");
-                group.drain(..).for_each(|job| job.refuse(unavailable()));
-                writing = self.recover(writing).await?;
+                self.metrics.failed();
+                let trouble = Trouble::of(&error).unwrap_or(Trouble::Failing);
+                tracing::error!(%error, %trouble, commands = group.len(), "a transaction failed, reopening the database");
+                group.drain(..).for_each(|job| job.refuse(trouble.refusal()));
+                writing = self.recover(writing, trouble).await?;
             }
         }
         self.reads.close().await;
@@ -148,19 +201,28 @@ impl Work {
         group: &mut [Box<dyn Job>],
         writing: &mut Writing,
     ) -> Result<(), Fault> {
-        let before = writing.change();
+        let (before, commands) = (writing.change(), group.len());
         let database = |error: sqlx::Error| Fault::Database(error.into());
         writing.begun();
         sqlx::query("BEGIN IMMEDIATE").execute(&mut writing.conn).await.map_err(database)?;
         for job in group {
             if let Err(error) = job.run(writing).await {
                 writing.rolled_back(before);
+                if Trouble::of(&error).is_some() {
+                    // Perhaps rolled back already; the connection is of no use any more.
+                    return Err(Fault::Database(error));
+                }
                 sqlx::query("ROLLBACK").execute(&mut writing.conn).await.map_err(database)?;
                 return Err(Fault::Command(error));
             }
         }
         sqlx::query("COMMIT").execute(&mut writing.conn).await.map_err(database)?;
         self.publish(writing, before);
+        let committed = writing.clock_now();
+        // The wall clock may have been set back meanwhile.
+        let took_s = seconds(writing.now, committed).max(0.0);
+        self.metrics.committed(commands, took_s, unix_s(committed));
+        writing.tally.tell(&self.metrics);
         Ok(())
     }
 
@@ -172,7 +234,8 @@ impl Work {
         error: StoreError,
     ) -> Result<(), StoreError> {
         tracing::warn!(%error, commands = group.len(), "a command failed, applying them one by one");
-        for job in std::mem::take(group) {
+        let mut jobs = std::mem::take(group).into_iter();
+        while let Some(job) = jobs.next() {
             let mut single = [job];
             let fault = self.attempt(&mut single, writing).await;
             let [job] = single;
@@ -182,9 +245,9 @@ impl Work {
                     tracing::error!(%error, "a command failed");
                     job.refuse(refusal(&error));
                 }
-                // The rest of the group is dropped, and its callers hear that the writer is unavailable.
                 Err(Fault::Database(error)) => {
-                    job.refuse(unavailable());
+                    group.push(job);
+                    group.extend(jobs);
                     return Err(error);
                 }
             }
@@ -202,40 +265,57 @@ impl Work {
         }
     }
 
-    /// Opens the database again and verifies it. Whoever asks meanwhile is refused.
-    async fn recover(&mut self, writing: Writing) -> Result<Writing, StoreError> {
+    /// Opens the database again and verifies it, as often as it takes: room may come back, and locks go.
+    /// Whoever asks meanwhile is refused. Only what is damaged stays so.
+    async fn recover(
+        &mut self,
+        writing: Writing,
+        mut trouble: Trouble,
+    ) -> Result<Writing, StoreError> {
         let acknowledged = *self.committed.borrow();
         let (clock, ids) = writing.closed().await;
-        let mut pause = Duration::from_millis(50);
-        let mut last = None;
-        for _ in 0..REOPENINGS {
-            match self.database.reopen(acknowledged).await {
+        let (mut pause, mut damaged) = (Duration::ZERO, 0);
+        loop {
+            self.trouble.send_replace(Some(trouble));
+            let reopening = async {
+                clock.pause(pause).await;
+                self.database.reopen(acknowledged).await
+            };
+            let reopened = tokio::select! {
+                reopened = reopening => reopened,
+                // Nobody is refused for a trouble that is over at once.
+                never = refusing(&mut self.jobs, trouble), if !pause.is_zero() => match never {},
+                () = self.stop.cancelled() => Err(StoreError::Troubled(trouble)),
+            };
+            let error = match reopened {
                 Ok((conn, change)) => {
                     tracing::info!(change, "the database is open again");
+                    self.metrics.reopened();
                     self.committed.send_replace(change);
                     self.tours.send_replace(change);
+                    self.trouble.send_replace(None);
                     return Ok(Writing::new(conn, change, clock, ids));
                 }
-                Err(error) => {
-                    tracing::error!(%error, "the database cannot be reopened");
-                    last = Some(error);
-                }
+                Err(error) => error,
+            };
+            trouble = Trouble::of(&error).unwrap_or(Trouble::Failing);
+            tracing::error!(%error, %trouble, "the database cannot be reopened");
+            damaged += u32::from(trouble == Trouble::Damaged);
+            if damaged == LOOKS || self.stop.is_cancelled() {
+                self.jobs.close();
+                return Err(error);
             }
-            self.refuse_until(&*clock, pause).await;
-            pause = (pause * 2).min(Duration::from_secs(10));
+            pause = (pause * 2).clamp(FIRST_PAUSE, LONGEST_PAUSE);
         }
-        self.jobs.close();
-        Err(last.unwrap_or_else(|| StoreError::Verification("not reopened".into())))
     }
+}
 
-    async fn refuse_until(&mut self, clock: &dyn Clock, pause: Duration) {
-        let over = clock.sleep_until(plus(clock.now(), pause));
-        tokio::pin!(over);
-        loop {
-            tokio::select! {
-                () = &mut over => return,
-                Some(job) = self.jobs.recv() => job.refuse(unavailable()),
-            }
+/// Refuses whatever is asked, for as long as it is polled.
+async fn refusing(jobs: &mut mpsc::Receiver<Box<dyn Job>>, trouble: Trouble) -> Infallible {
+    loop {
+        match jobs.recv().await {
+            Some(job) => job.refuse(trouble.refusal()),
+            None => std::future::pending().await,
         }
     }
 }

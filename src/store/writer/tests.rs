@@ -4,6 +4,9 @@
 use std::sync::Arc;
 use std::time::Duration;
 
+use tokio::sync::Notify;
+
+use super::task::QUEUE;
 use super::{Command, Failure, Writing};
 use crate::clock::SystemClock;
 use crate::domain::Refusal;
@@ -147,4 +150,57 @@ async fn what_was_acknowledged_outlives_the_writer() {
         assert!(live.len() <= 5, "one open request a sensor");
     }
     assert!(!acknowledged.is_empty());
+}
+
+/// Keeps the writer busy until it is let go.
+struct Hold(Arc<Notify>);
+
+impl Command for Hold {
+    type Answer = ();
+
+    async fn apply(&self, _: &mut Writing) -> Result<(), Failure> {
+        self.0.notified().await;
+        Ok(())
+    }
+}
+
+#[tokio::test]
+async fn a_full_queue_refuses_callers_from_outside_and_keeps_what_it_took() {
+    let bench = Bench::new().await;
+    let (writer, go) = (bench.store.writer.clone(), Arc::new(Notify::new()));
+    let holding = writer.enqueue(Hold(go.clone())).await.unwrap();
+    // Taken by the writer, which holds: the queue is empty and stays as it is.
+    while writer.room() < QUEUE {
+        tokio::task::yield_now().await;
+    }
+    let mut taken = Vec::new();
+    for i in 0..QUEUE {
+        let submit = Submit::new(call(&format!("c{i}"), asks("s1")));
+        taken.push(writer.enqueue_soon(submit).await.expect("the last one that fits"));
+    }
+    let refused = writer.offer(Submit::new(call("late", asks("s2")))).await.unwrap_err();
+    assert!(matches!(refused, Refusal::ResourceExhausted { .. }), "{refused:?}");
+    go.notify_one();
+    holding.await.unwrap();
+    for answer in taken {
+        answer.await.unwrap();
+    }
+    let (live, _) = bench.store.reads.live_requests(&"net".parse().unwrap()).await.unwrap();
+    assert_eq!(live.len(), 1, "nothing of the refused one is stored: {live:?}");
+    writer.offer(Submit::new(call("late", asks("s2")))).await.unwrap();
+}
+
+#[tokio::test]
+async fn what_nobody_waits_for_any_more_is_not_done() {
+    let bench = Bench::new().await;
+    let (writer, go) = (bench.store.writer.clone(), Arc::new(Notify::new()));
+    let holding = writer.enqueue(Hold(go.clone())).await.unwrap();
+    let given_up = writer.enqueue(Submit::new(call("a", asks("s1")))).await.unwrap();
+    let awaited = writer.enqueue(Submit::new(call("b", asks("s2")))).await.unwrap();
+    drop(given_up);
+    go.notify_one();
+    holding.await.unwrap();
+    let stored = awaited.await.unwrap();
+    let (live, _) = bench.store.reads.live_requests(&"net".parse().unwrap()).await.unwrap();
+    assert_eq!(live, [stored]);
 }

@@ -7,6 +7,7 @@ use jiff::Timestamp;
 use sqlx::{Connection, SqliteConnection};
 use uuid::Uuid;
 
+use super::tally::Tally;
 use crate::clock::{Clock, Ids};
 use crate::store::cells::signed;
 use crate::store::networks::Networks;
@@ -21,6 +22,8 @@ pub(crate) struct Writing {
     pub(in crate::store) networks: Networks,
     /// Whether a departure or a tour was changed.
     pub tours_moved: bool,
+    /// What is counted once it is committed.
+    pub(in crate::store) tally: Tally,
     clock: Arc<dyn Clock>,
     ids: Ids,
     change: u64,
@@ -29,7 +32,8 @@ pub(crate) struct Writing {
 impl Writing {
     pub fn new(conn: SqliteConnection, change: u64, clock: Arc<dyn Clock>, ids: Ids) -> Self {
         let (now, networks) = (clock.now(), Networks::default());
-        Self { conn, now, networks, tours_moved: false, clock, ids, change }
+        let tally = Tally::default();
+        Self { conn, now, networks, tours_moved: false, tally, clock, ids, change }
     }
 
     /// Closes the connection, whatever its state; what remains goes to the next one.
@@ -69,10 +73,16 @@ impl Writing {
         self.change
     }
 
+    /// The moment by the clock, which goes on while a transaction runs.
+    pub fn clock_now(&self) -> Timestamp {
+        self.clock.now()
+    }
+
     /// Begins: reads the clock.
     pub fn begun(&mut self) {
         self.now = self.clock.now();
         self.tours_moved = false;
+        self.tally = Tally::default();
     }
 
     /// Forgets what a transaction did that was rolled back.
@@ -80,5 +90,6 @@ impl Writing {
         self.change = change;
         self.networks.forget();
         self.tours_moved = false;
+        self.tally = Tally::default();
     }
 }

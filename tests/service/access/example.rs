@@ -159,7 +159,7 @@ impl World {
             Some("requests" | "departures" | "plans" | "plans.csv") => {
                 vec![route.to_owned(), format!("{route}?network={}", self.network)]
             }
-            Some("networks" | "") => vec![route.to_owned()],
+            Some("networks" | "log-filter" | "") => vec![route.to_owned()],
             Some("{file}") => vec![route.replace("{file}", "index.html")],
             Some(_) => panic!("{route} needs its paths here"),
         }

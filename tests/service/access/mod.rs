@@ -5,6 +5,7 @@ mod escaped;
 mod example;
 mod host;
 mod listening;
+mod log_filter;
 mod raw;
 mod scope;
 mod tls;

@@ -9,17 +9,19 @@
 //!
 //! `VOLTOUR_CRASH_TRIALS` and `VOLTOUR_CRASH_SEED` say how many and which.
 
-mod aim;
-mod charger;
+pub mod aim;
+pub mod charger;
 mod phase;
-mod rng;
-mod rules;
-mod station;
-mod verify;
+pub mod rng;
+pub mod rules;
+pub mod station;
+pub mod verify;
 
 use std::env;
+use std::slice;
 use std::sync::Arc;
 use std::thread;
+use std::time::Duration;
 
 use voltour::proto::{AnnounceRequest, NetworkSpec};
 
@@ -34,9 +36,10 @@ use station::Station;
 /// Trials that share a database.
 const ROUND: u64 = 5;
 /// Sensors of the network: enough for a search that takes its whole budget.
-const SENSORS: usize = 120;
+pub const SENSORS: usize = 120;
 
-fn number(name: &str, default: u64) -> u64 {
+/// A whole number from the environment.
+pub fn number(name: &str, default: u64) -> u64 {
     let set = env::var(name).ok().map(|text| text.parse().expect("a whole number"));
     set.unwrap_or(default)
 }
@@ -71,19 +74,19 @@ async fn run_round(seeds: std::ops::Range<u64>, struck: &mut Struck) {
         Settings { solver: "baseline", budget: "120ms", lead: "300ms", ..Settings::default() };
     let mut app = TestApp::with(settings).await;
     app.put(network()).await;
-    let mut station = Station::new(seeds.start);
+    let mut station = Station::new("station", seeds.start, Duration::from_millis(1));
     let mut chargers: Vec<_> = ["A", "B", "C"].map(|id| Charger::new(id, seeds.start)).into();
     drop(naming);
     for seed in seeds.clone() {
         let _naming = Naming(seed);
         trial(&mut app, seed, &mut station, &mut chargers, struck).await;
         app.launch().await;
-        verify::acknowledged(&app, &station, &chargers).await;
+        verify::acknowledged(&app, slice::from_ref(&station), &chargers).await;
         rules::hold(&app.database()).await;
     }
     let _naming = Naming(seeds.start);
-    settle(&app, &mut station, &mut chargers).await;
-    verify::acknowledged(&app, &station, &chargers).await;
+    settle(&app, slice::from_mut(&mut station), &mut chargers).await;
+    verify::acknowledged(&app, slice::from_ref(&station), &chargers).await;
     rules::hold(&app.database()).await;
     rules::settled(&app.database()).await;
 }
@@ -123,9 +126,11 @@ async fn trial(
     struck.count(aim, &app.database(), station).await;
 }
 
-/// The chargers finish what they are at, the base station gets its answers.
-async fn settle(app: &TestApp, station: &mut Station, chargers: &mut [Charger]) {
-    station.finish(app.requests()).await;
+/// The chargers finish what they are at, the base stations get their answers.
+pub async fn settle(app: &TestApp, stations: &mut [Station], chargers: &mut [Charger]) {
+    for station in stations {
+        station.finish(app.requests()).await;
+    }
     for charger in chargers.iter_mut() {
         charger.finish(app.departures(), app.tours()).await;
     }
@@ -142,10 +147,10 @@ async fn settle(app: &TestApp, station: &mut Station, chargers: &mut [Charger]) 
 async fn a_lost_request_is_noticed() {
     let app = TestApp::start().await;
     app.put(line(1)).await;
-    let mut station = Station::new(1);
+    let mut station = Station::new("station", 1, Duration::from_millis(1));
     let nowhere = "0190163d-8694-739b-8ca7-c9f6e6a7b0a1".to_owned();
     station.acknowledged.push((crate::field::request("s1"), nowhere));
-    verify::acknowledged(&app, &station, &[]).await;
+    verify::acknowledged(&app, &[station], &[]).await;
 }
 
 /// A request that is planned without a tour.
@@ -162,7 +167,7 @@ async fn a_broken_rule_is_noticed() {
 }
 
 /// Sensors on a spiral, and a capacity that leaves most of a batch for the next departure.
-fn network() -> NetworkSpec {
+pub fn network() -> NetworkSpec {
     let mut spec = line(SENSORS);
     for (i, sensor) in spec.sensors.iter_mut().enumerate() {
         let (angle, radius) = (i as f64 * 2.399963, 20.0 + 3.0 * i as f64);

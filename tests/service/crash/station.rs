@@ -24,7 +24,10 @@ const UNACKNOWLEDGED: usize = 200;
 
 #[derive(Clone, Debug)]
 pub struct Station {
+    name: &'static str,
     rng: Rng,
+    /// Between two requests.
+    pace: Duration,
     made: u64,
     /// Sent and not acknowledged, in the order of sending.
     pub waiting: VecDeque<SubmitRequest>,
@@ -33,8 +36,10 @@ pub struct Station {
 }
 
 impl Station {
-    pub fn new(seed: u64) -> Self {
-        Self { rng: Rng::new(seed), made: 0, waiting: VecDeque::new(), acknowledged: Vec::new() }
+    pub fn new(name: &'static str, seed: u64, pace: Duration) -> Self {
+        let rng = Rng::new(seed);
+        let (waiting, acknowledged) = (VecDeque::new(), Vec::new());
+        Self { name, rng, pace, made: 0, waiting, acknowledged }
     }
 
     /// Sends requests until the process is killed.
@@ -58,7 +63,7 @@ impl Station {
         let (send, items) = mpsc::channel(16);
         let answers = requests.submit_stream(ReceiverStream::new(items)).await?;
         let (mut answers, mut send) = (answers.into_inner(), Some(send));
-        let mut pace = tokio::time::interval(Duration::from_millis(1));
+        let mut pace = tokio::time::interval(self.pace);
         // Of those that wait, this many were sent on this stream.
         let (mut sent, mut position) = (0, 0);
         loop {
@@ -103,7 +108,7 @@ impl Station {
         self.made += 1;
         let rng = &mut self.rng;
         SubmitRequest {
-            client_id: format!("station-{}", self.made),
+            client_id: format!("{}-{}", self.name, self.made),
             network_id: FIELD.into(),
             sensor_id: sensor(rng.range(1, SENSORS as u64 + 1) as usize).id,
             deadline: from_now(rng.range(100, 600_000) as i64).filter(|_| rng.one_in(2)),

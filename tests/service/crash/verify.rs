@@ -12,9 +12,9 @@ use crate::app::{PATIENCE, TestApp};
 use crate::database::{open, rows};
 use crate::field::FIELD;
 
-pub async fn acknowledged(app: &TestApp, station: &Station, chargers: &[Charger]) {
+pub async fn acknowledged(app: &TestApp, stations: &[Station], chargers: &[Charger]) {
     let stored = all_requests(app).await;
-    for (sent, id) in &station.acknowledged {
+    for (sent, id) in stations.iter().flat_map(|station| &station.acknowledged) {
         let request = stored.get(id).unwrap_or_else(|| panic!("lost: {sent:?}"));
         assert_eq!(request.submitted.as_ref(), Some(sent));
     }

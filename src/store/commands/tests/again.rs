@@ -31,7 +31,7 @@ async fn put() {
     let bench = Bench::new().await;
     let put = |id: &str, spec, expected_version| {
         let content = PutNetwork { network_id: "n2".parse().unwrap(), spec, expected_version };
-        bench.store.writer.call(Put::new(call(id, content)).unwrap())
+        bench.store.writer.call(Put::new(call(id, content), 1_000).unwrap())
     };
     let first = put("a", spec(), Some(0)).await.unwrap();
     assert_eq!(first.version, 1);

@@ -2,5 +2,6 @@
 
 mod again;
 mod closing;
+mod forget;
 mod life;
 mod visits;

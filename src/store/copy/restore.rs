@@ -1,0 +1,94 @@
+//! Putting a backup in the place of a database on which no service runs.
+
+use std::fs;
+use std::io::ErrorKind;
+use std::path::{Path, PathBuf};
+
+use jiff::Timestamp;
+
+use super::durable;
+use super::verify::{Verified, verify};
+use crate::store::StoreError;
+use crate::store::lock::Lock;
+
+/// What came of it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Restored {
+    /// The database as it is now.
+    pub verified: Verified,
+    /// Where the one before lies now.
+    pub aside: Option<PathBuf>,
+}
+
+/// Makes a backup the database. The copy is checked before anything is touched; a database that is there
+/// is kept aside, under a name with the time `now`, if `replace` allows it.
+///
+/// # Errors
+/// The backup is not there, is damaged, is not voltour's or of a later version than this program knows; a
+/// service has the database open; there is one and it is not to be replaced; or files cannot be written.
+pub async fn restore(
+    backup: &Path,
+    database: &Path,
+    replace: bool,
+    now: Timestamp,
+) -> Result<Restored, StoreError> {
+    if !backup.exists() {
+        return Err(StoreError::Missing(backup.to_owned()));
+    }
+    // The copy of a database without its log would look whole, and lack what was acknowledged last.
+    let log = with(backup, "-wal");
+    if fs::metadata(&log).is_ok_and(|log| log.len() > 0) {
+        return Err(StoreError::Logged(log));
+    }
+    let _lock = Lock::take(database)?;
+    if database.exists() && !replace {
+        return Err(StoreError::Exists(database.to_owned()));
+    }
+    let part = durable::beside(database)?;
+    fs::copy(backup, part.path()).map_err(|source| StoreError::file(backup, source))?;
+    let verified = verify(part.path()).await.map_err(|error| of(backup, error))?;
+    let aside = set_aside(database, now)?;
+    durable::keep(part, database, false)?;
+    Ok(Restored { verified, aside })
+}
+
+/// Keeps a database under another name, with its log, which it is not whole without; also a log that was left
+/// alone. It has both names before it loses the first, so that whatever cuts this short loses nothing.
+fn set_aside(database: &Path, now: Timestamp) -> Result<Option<PathBuf>, StoreError> {
+    let aside = with(database, &format!(".before-restore-{}", now.strftime("%Y%m%dT%H%M%SZ")));
+    let mut kept = false;
+    for end in ["", "-wal"] {
+        kept |= did(fs::hard_link(with(database, end), with(&aside, end)), &aside)?;
+    }
+    durable::sync_folder(database)?;
+    // The database first: without its log it would be opened as if nothing were missing.
+    for end in ["", "-wal", "-shm"] {
+        did(fs::remove_file(with(database, end)), database)?;
+    }
+    durable::sync_folder(database)?;
+    Ok(kept.then_some(aside))
+}
+
+/// Whether there was anything to do it with.
+fn did(done: std::io::Result<()>, file: &Path) -> Result<bool, StoreError> {
+    match done {
+        Ok(()) => Ok(true),
+        Err(error) if error.kind() == ErrorKind::NotFound => Ok(false),
+        Err(error) => Err(StoreError::file(file, error)),
+    }
+}
+
+/// Names the file that was given, not the copy of it that was looked at.
+fn of(backup: &Path, error: StoreError) -> StoreError {
+    match error {
+        StoreError::Damaged { reason, .. } => StoreError::damaged(backup, reason),
+        StoreError::Database(error) => StoreError::damaged(backup, error),
+        error => error,
+    }
+}
+
+fn with(file: &Path, end: &str) -> PathBuf {
+    let mut name = file.as_os_str().to_owned();
+    name.push(end);
+    name.into()
+}

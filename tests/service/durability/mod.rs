@@ -1,0 +1,5 @@
+//! What befalls a database and the disk that it lies on.
+
+mod backup;
+mod faults;
+mod released;
