@@ -6,6 +6,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use tokio::net::TcpListener;
+use tokio::signal::unix::Signal;
 use tokio::task::JoinHandle;
 use tokio_util::sync::CancellationToken;
 
@@ -163,7 +164,8 @@ impl App {
             let slow = limits.slow_client.0;
             Counted::new(listener, limits.connections, slow, open, acceptor(protocol))
         };
-        let (grpc, rest) = (counted(grpc, "h2"), counted(rest, "http/1.1"));
+        let grpc = counted(grpc, "h2").with_preface(soft.clone());
+        let rest = counted(rest, "http/1.1");
         let (limits, calls) = (config.grpc_limits(), metrics.calls.clone());
         let edge = Edge::new(handle.clone(), gate.clone(), limits, calls, soft.clone());
         let guard = Guard::new(
@@ -210,15 +212,12 @@ impl App {
         format!("voltour ready grpc={scheme}://{grpc} rest={scheme}://{rest}")
     }
 
-    /// Loads the policies again at every SIGHUP from now on.
-    ///
-    /// # Errors
-    /// The system refuses the handler.
-    pub fn reload_on_hangup(&self) -> io::Result<()> {
+    /// Loads the policies again at every SIGHUP, also at those that came while it was started.
+    pub fn reload_on(&self, hangups: Signal) {
         let (metrics, soft) = (self.metrics.clone(), self.lifecycle.soft.clone());
-        policy::on_hangup(self.policies.clone(), soft, move |_, became| {
+        policy::reload_on(hangups, self.policies.clone(), soft, move |_, became| {
             metrics.planning.policy_reloaded(became);
-        })
+        });
     }
 
     /// Runs until the lifecycle ends it, or until one of its parts fails, which ends the others.
@@ -229,7 +228,8 @@ impl App {
         let Self { lifecycle, stop_within, servers, explainer, running, scheduler, .. } = self;
         let aborts = servers.each_ref().map(JoinHandle::abort_handle);
         let ending = async {
-            let [grpc, rest] = servers.map(|server| watched(server, &lifecycle.soft));
+            let clients = stop_within / 2;
+            let [grpc, rest] = servers.map(|server| watched(server, &lifecycle, clients));
             let failing = async {
                 // The scheduler ends itself where the database fails for good.
                 scheduler.cancelled().await;
@@ -257,14 +257,24 @@ impl App {
     }
 }
 
-/// The end of a server; the first that ends takes the others along.
+/// The end of a server; the first that ends takes the others along. Clients that are so slow to end what they have
+/// begun are left: nothing that was acknowledged depends on them.
 async fn watched(
-    server: JoinHandle<Result<(), AppError>>,
-    soft: &CancellationToken,
+    mut server: JoinHandle<Result<(), AppError>>,
+    lifecycle: &Lifecycle,
+    patience: Duration,
 ) -> Result<(), AppError> {
-    let ended = server.await;
-    soft.cancel();
-    ended?
+    tokio::select! {
+        ended = &mut server => {
+            lifecycle.soft.cancel();
+            ended?
+        }
+        () = lifecycle.late(patience) => {
+            tracing::warn!(?patience, "clients are slow to end, and lose their connections");
+            server.abort();
+            Ok(())
+        }
+    }
 }
 
 /// As many as are configured, but for one core, which is left to the requests.

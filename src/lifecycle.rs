@@ -36,14 +36,16 @@ impl Lifecycle {
         Ok(())
     }
 
+    /// Ends so long after the first signal.
+    pub async fn late(&self, by: Duration) {
+        self.soft.cancelled().await;
+        tokio::time::sleep(by).await;
+    }
+
     /// Ends when it is time to give up on a soft stop: a second signal, or so long after the first.
     pub async fn given_up(&self, within: Duration) {
-        let late = async {
-            self.soft.cancelled().await;
-            tokio::time::sleep(within).await;
-        };
         tokio::select! {
-            () = late => tracing::warn!(?within, "not everything ended in time"),
+            () = self.late(within) => tracing::warn!(?within, "not everything ended in time"),
             () = self.hard.cancelled() => {}
         }
     }

@@ -7,6 +7,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use tokio::runtime::Builder;
+use tokio::signal::unix::{SignalKind, signal};
 
 use super::{Failure, say};
 use crate::app::{App, AppError};
@@ -130,9 +131,15 @@ async fn serve(config: Config, log: LogFilter) -> Result<(), Failure> {
     let lifecycle = Lifecycle::default();
     let failed = |error: &dyn std::error::Error| Failure::other(error.to_string());
     lifecycle.listen().map_err(|error| failed(&error))?;
-    let started = App::start(&config, Arc::new(SystemClock), lifecycle, log).await;
+    // Before the start, which may take long: a SIGHUP that nobody listens for ends the process.
+    let hangups = signal(SignalKind::hangup()).map_err(|error| failed(&error))?;
+    let hard = lifecycle.hard.clone();
+    let started = tokio::select! {
+        started = App::start(&config, Arc::new(SystemClock), lifecycle, log) => started,
+        () = hard.cancelled() => Err(AppError::Hard),
+    };
     let app = started.map_err(not_started)?;
-    app.reload_on_hangup().map_err(|error| failed(&error))?;
+    app.reload_on(hangups);
     say(app.ready());
     app.run().await.map_err(|error| failed(&error))
 }

@@ -141,7 +141,7 @@ pub struct Limits {
     pub all_calls: usize,
     /// Calls at once that wait for a tour.
     pub waits: usize,
-    /// REST calls at once, but for health checks.
+    /// REST calls at once, but for health checks and metrics.
     pub rest_calls: usize,
     /// Items of one submission stream that are taken and not acknowledged yet.
     pub unacknowledged: usize,

@@ -19,30 +19,55 @@ use crate::access::table::{self, Who};
 use crate::domain::Refusal;
 use crate::metrics::{Calls, GrpcCall};
 
+/// Anybody may call it, and it lasts for as long as its caller likes.
+const HEALTH_WATCH: &str = "/grpc.health.v1.Health/Watch";
+/// Watches of the health service at once, which have room of their own.
+pub(super) const HEALTH_WATCHES: usize = 100;
+
+/// Room for calls, over all connections.
+#[derive(Clone, Debug)]
+pub(super) struct Room {
+    calls: Arc<Semaphore>,
+    most: usize,
+    health_watches: Arc<Semaphore>,
+}
+
+impl Room {
+    /// For at most so many calls, but for health checks.
+    pub fn new(most: usize) -> Self {
+        let room = |places| Arc::new(Semaphore::new(places));
+        Self { calls: room(most), most, health_watches: room(HEALTH_WATCHES) }
+    }
+
+    /// Room for one more call. Those that ask once whether the service lives need none: they are answered at once.
+    fn permit(&self, path: &str) -> Result<Option<OwnedSemaphorePermit>, Refusal> {
+        let (room, limit, reason) = if path == HEALTH_WATCH {
+            let reason = format!("{HEALTH_WATCHES} health watches are open, the most at once");
+            (&self.health_watches, "health watches", reason)
+        } else if table::grpc(path) == Some(Who::Anybody) {
+            return Ok(None);
+        } else {
+            let reason = format!("{} calls are being answered, the most at once", self.most);
+            (&self.calls, "limits.all_calls", reason)
+        };
+        let permit = room.clone().try_acquire_owned();
+        permit.map(Some).map_err(|_| Refusal::exhausted(limit, reason))
+    }
+}
+
 /// The layer.
 #[derive(Clone, Debug)]
 pub(super) struct Count<S> {
     inner: S,
     calls: Calls,
     limits: Limits,
-    room: Arc<Semaphore>,
+    room: Room,
 }
 
 impl<S> Count<S> {
     /// `room` is that for all calls.
-    pub fn new(inner: S, calls: Calls, limits: Limits, room: Arc<Semaphore>) -> Self {
+    pub fn new(inner: S, calls: Calls, limits: Limits, room: Room) -> Self {
         Self { inner, calls, limits, room }
-    }
-
-    /// Room for one more call; without any those that ask whether the service lives get through all the same.
-    fn permit(&self, path: &str) -> Result<Option<OwnedSemaphorePermit>, Refusal> {
-        let permit = self.room.clone().try_acquire_owned().ok();
-        if permit.is_none() && table::grpc(path) != Some(Who::Anybody) {
-            let most = self.limits.all_calls;
-            let reason = format!("{most} calls are being answered, the most at once");
-            return Err(Refusal::exhausted("limits.all_calls", reason));
-        }
-        Ok(permit)
     }
 }
 
@@ -60,7 +85,7 @@ where
 
     fn call(&mut self, call: Request<Body>) -> Self::Future {
         let path = call.uri().path();
-        let (mut counted, permit) = (self.calls.grpc(path), self.permit(path));
+        let (mut counted, permit) = (self.calls.grpc(path), self.room.permit(path));
         let permit = match permit {
             Ok(permit) => permit,
             Err(refusal) => {

@@ -1,9 +1,8 @@
 //! The server: the four services, health and reflection on one listener.
 
-use std::sync::Arc;
 use std::time::Duration;
 
-use tokio::sync::{Semaphore, watch};
+use tokio::sync::watch;
 use tokio_util::sync::CancellationToken;
 use tonic::server::NamedService;
 use tonic_health::ServingStatus;
@@ -12,7 +11,7 @@ use tower_http::auth::AsyncRequireAuthorizationLayer;
 use tracing::field::Empty;
 
 use super::Edge;
-use super::count::Count;
+use super::count::{Count, Room};
 use super::guard::Guard;
 use crate::listen::{self, Counted};
 use crate::proto::DESCRIPTORS;
@@ -59,10 +58,13 @@ impl Server {
     pub async fn run(self) -> Result<(), ServerError> {
         let Self { edge, listener } = self;
         let (limits, stop, calls) = (edge.limits, edge.stop.clone(), edge.calls.clone());
-        let room = Arc::new(Semaphore::new(limits.all_calls));
+        let room = Room::new(limits.all_calls);
         let (reporter, health) = tonic_health::server::health_reporter();
-        let able =
-            tokio::spawn(able(reporter.clone(), edge.handle.reads().trouble(), stop.clone()));
+        let mut trouble = edge.handle.reads().trouble();
+        // Before anybody can ask: whoever watches hears of every report, also of one that says the same again.
+        let present = status(*trouble.borrow_and_update());
+        report(&reporter, present).await;
+        let able = tokio::spawn(able(reporter.clone(), present, trouble, stop.clone()));
         let reflection = || {
             tonic_reflection::server::Builder::configure()
                 .register_encoded_file_descriptor_set(DESCRIPTORS)
@@ -120,21 +122,23 @@ const SERVICES: [&str; 5] = [
     TourServiceServer::<Edge>::NAME,
 ];
 
-/// Says that the services serve for as long as something can be written.
+/// The services serve for as long as something can be written.
+fn status(trouble: Option<Trouble>) -> ServingStatus {
+    if trouble.is_none() { ServingStatus::Serving } else { ServingStatus::NotServing }
+}
+
+/// Says so whenever it becomes different from what was `said`.
 async fn able(
     reporter: HealthReporter,
+    mut said: ServingStatus,
     mut trouble: watch::Receiver<Option<Trouble>>,
     stop: CancellationToken,
 ) {
-    loop {
-        let status = match *trouble.borrow_and_update() {
-            None => ServingStatus::Serving,
-            Some(_) => ServingStatus::NotServing,
-        };
-        report(&reporter, status).await;
-        tokio::select! {
-            () = stop.cancelled() => return,
-            changed = trouble.changed() => if changed.is_err() { return },
+    while let Some(Ok(())) = stop.run_until_cancelled(trouble.changed()).await {
+        let present = status(*trouble.borrow_and_update());
+        if present != said {
+            report(&reporter, present).await;
+            said = present;
         }
     }
 }

@@ -2,8 +2,8 @@
 //! access table names them, whatever the caller has written.
 
 use std::sync::Arc;
+use std::time::Duration;
 
-use jiff::Timestamp;
 use prometheus_client::metrics::counter::Counter;
 use prometheus_client::metrics::family::Family;
 use prometheus_client::metrics::histogram::Histogram;
@@ -15,7 +15,7 @@ use super::labels::{
 };
 use super::{Level, TIMES_S};
 use crate::access::table;
-use crate::clock::{Clock, seconds};
+use crate::clock::Clock;
 use crate::domain::Refusal;
 
 /// What has no entry in the access table.
@@ -90,7 +90,7 @@ impl Calls {
     pub fn grpc(&self, path: &str) -> GrpcCall {
         let entry = table::GRPC.iter().find(|(entry, _)| *entry == path);
         let method = entry.map_or(UNKNOWN, |(path, _)| path.trim_start_matches('/'));
-        GrpcCall { calls: self.clone(), method, began: self.clock.now(), code: Code::Cancelled }
+        GrpcCall { calls: self.clone(), method, began: self.clock.ran(), code: Code::Cancelled }
     }
 
     /// A REST call begins; what is returned takes the status of its answer.
@@ -98,7 +98,7 @@ impl Calls {
         let entry = table::REST.iter().find(|(entry, _)| Some(*entry) == route);
         let route = entry.map_or(UNKNOWN, |(route, _)| *route);
         let method = ["GET", "HEAD", "PUT"].into_iter().find(|known| *known == method);
-        let (calls, began) = (self.clone(), self.clock.now());
+        let (calls, began) = (self.clone(), self.clock.ran());
         move |status| {
             let labels = RestLabels { method: method.unwrap_or("other"), route, code: status };
             calls.rest.get_or_create_owned(&labels).inc();
@@ -120,9 +120,8 @@ impl Calls {
         self.submissions.get_or_create_owned(&SubmissionLabels { outcome }).inc();
     }
 
-    /// A wall clock may be set back meanwhile.
-    fn since(&self, began: Timestamp) -> f64 {
-        seconds(began, self.clock.now()).max(0.0)
+    fn since(&self, began: Duration) -> f64 {
+        self.clock.ran().saturating_sub(began).as_secs_f64()
     }
 }
 
@@ -131,7 +130,7 @@ impl Calls {
 pub struct GrpcCall {
     calls: Calls,
     method: &'static str,
-    began: Timestamp,
+    began: Duration,
     code: Code,
 }
 

@@ -69,10 +69,14 @@ impl Metrics {
 
 #[cfg(test)]
 mod tests {
+    use std::time::Duration;
+
+    use jiff::Timestamp;
     use tonic::Code;
     use voltour_solver::plan::Status;
 
     use super::*;
+    use crate::clock::{ManualClock, plus};
     use crate::metrics::ExplanationOutcome;
     use crate::policy::{Fallback, Reloaded, Winning};
 
@@ -140,6 +144,25 @@ mod tests {
         assert!(
             !text.contains("time_seconds_count{method=\"voltour.v1.RequestService/Watch"),
             "{text}"
+        );
+    }
+
+    #[test]
+    fn a_clock_that_is_set_during_a_call_makes_it_no_longer() {
+        let clock = Arc::new(ManualClock::new(Timestamp::UNIX_EPOCH));
+        let metrics = Metrics::new(clock.clone(), &WriterMetrics::default());
+        let call = metrics.calls.grpc("/voltour.v1.RequestService/Submit");
+        let answered = metrics.calls.rest("GET", Some("/healthz"));
+        clock.set(plus(clock.now(), Duration::from_secs(3_600)));
+        clock.advance(Duration::from_secs(2));
+        drop(call);
+        answered(200);
+        check(
+            &metrics,
+            &[
+                r#"voltour_grpc_call_time_seconds_sum{method="voltour.v1.RequestService/Submit"} 2.0"#,
+                r#"voltour_rest_call_time_seconds_sum{route="/healthz"} 2.0"#,
+            ],
         );
     }
 

@@ -28,7 +28,7 @@ pub use fault::{Fault, ModelError};
 pub use limited::Limited;
 pub use load::load;
 pub use policies::Policies;
-pub use reload::on_hangup;
+pub use reload::reload_on;
 pub use shelf::{Reloaded, Shelf};
 pub use source::{embedded, file};
 pub use winning::Winning;

@@ -21,6 +21,11 @@ use crate::domain::Refusal;
 /// What browsers and clients may send; the first is what a program should.
 const CHALLENGES: [&str; 2] = ["Bearer realm=\"voltour\"", "Basic realm=\"voltour\""];
 
+/// What monitors ask for.
+const METRICS: &str = "/metrics";
+/// Monitors at once.
+const MONITORS: usize = 8;
+
 /// Lets calls through, with their caller among their extensions.
 #[derive(Clone, Debug)]
 pub struct Guard {
@@ -28,8 +33,32 @@ pub struct Guard {
     /// None where any name will do.
     hosts: Option<Arc<[String]>>,
     /// For calls, but for those that anybody may make.
-    room: Arc<Semaphore>,
+    room: Room,
+    /// For monitors: what is measured of a service that is busy must not be missing.
+    monitors: Room,
+}
+
+/// Room for so many calls.
+#[derive(Clone, Debug)]
+struct Room {
+    places: Arc<Semaphore>,
     most: usize,
+    name: &'static str,
+}
+
+impl Room {
+    fn new(name: &'static str, most: usize) -> Self {
+        Self { places: Arc::new(Semaphore::new(most)), most, name }
+    }
+
+    /// Room for one more call, until its answer begins.
+    fn enter(&self) -> Result<SemaphorePermit<'_>, Problem> {
+        self.places.try_acquire().map_err(|_| {
+            let Self { name, most, .. } = self;
+            let detail = format!("{name}: {most} calls are being answered, the most at once");
+            Problem::new(StatusCode::TOO_MANY_REQUESTS).detail(detail)
+        })
+    }
 }
 
 impl Guard {
@@ -38,21 +67,16 @@ impl Guard {
     /// At most `most` calls are answered at once.
     pub fn new(gate: Gate, is_loopback: bool, hosts: &[String], most: usize) -> Self {
         let lower = || hosts.iter().map(|host| host.to_ascii_lowercase()).collect();
-        let room = Arc::new(Semaphore::new(most));
-        Self { gate, hosts: is_loopback.then(lower), room, most }
+        let (room, monitors) = (Room::new("limits.rest_calls", most), Room::new(METRICS, MONITORS));
+        Self { gate, hosts: is_loopback.then(lower), room, monitors }
     }
 
-    /// Room for one more call, until its answer begins.
-    fn room(&self, who: Who) -> Result<Option<SemaphorePermit<'_>>, Problem> {
-        if who == Who::Anybody {
-            return Ok(None);
+    fn enter(&self, who: Who, route: &str) -> Result<Option<SemaphorePermit<'_>>, Problem> {
+        match who {
+            Who::Anybody => Ok(None),
+            _ if route == METRICS => self.monitors.enter().map(Some),
+            _ => self.room.enter().map(Some),
         }
-        self.room.try_acquire().map(Some).map_err(|_| {
-            let most = self.most;
-            let detail =
-                format!("limits.rest_calls: {most} calls are being answered, the most at once");
-            Problem::new(StatusCode::TOO_MANY_REQUESTS).detail(detail)
-        })
     }
 
     fn host(&self, call: &Request) -> Result<(), Problem> {
@@ -77,13 +101,14 @@ pub(super) async fn guard(
     next: Next,
 ) -> Result<Response, Response> {
     guard.host(&call).map_err(Problem::into_response)?;
-    let route = call.extensions().get::<MatchedPath>();
-    let who = route.and_then(|route| table::rest(route.as_str()));
-    let who = who.ok_or_else(|| Problem::new(StatusCode::NOT_FOUND).into_response())?;
+    let route = call.extensions().get::<MatchedPath>().map(MatchedPath::as_str);
+    let route = route.and_then(|route| Some((route, table::rest(route)?)));
+    let (route, who) = route.ok_or_else(|| Problem::new(StatusCode::NOT_FOUND).into_response())?;
+    // First: a token that is not known costs a look into the database.
+    let _room = guard.enter(who, route).map_err(Problem::into_response)?;
     if let Some(caller) = guard.gate.admit(who, call.headers()).await.map_err(refused)? {
         call.extensions_mut().insert(caller);
     }
-    let _room = guard.room(who).map_err(Problem::into_response)?;
     Ok(next.run(call).await)
 }
 

@@ -23,6 +23,9 @@ pub async fn serve(
     stop: CancellationToken,
 ) {
     let connections = GracefulShutdown::new();
+    // Whoever does not wait for the end of this ends the connections too.
+    let cut = CancellationToken::new();
+    let _cut = cut.clone().drop_guard();
     let mut http = http1::Builder::new();
     http.timer(TokioTimer::new()).header_read_timeout(patience).max_buf_size(HEAD_BYTES);
     loop {
@@ -32,9 +35,9 @@ pub async fn serve(
         };
         let service = TowerToHyperService::new(routes.clone());
         let serving = http.serve_connection(TokioIo::new(connection), service);
-        let serving = connections.watch(serving);
+        let serving = cut.clone().run_until_cancelled_owned(connections.watch(serving));
         tokio::spawn(async move {
-            if let Err(error) = serving.await {
+            if let Some(Err(error)) = serving.await {
                 tracing::debug!(%error, "a REST connection ended");
             }
         });

@@ -3,7 +3,9 @@
 use std::time::Duration;
 
 use axum::body::Body;
-use axum::http::header::{ACCEPT_ENCODING, CACHE_CONTROL, CONTENT_TYPE, ETAG, IF_NONE_MATCH};
+use axum::http::header::{
+    ACCEPT_ENCODING, AUTHORIZATION, CACHE_CONTROL, CONTENT_TYPE, ETAG, IF_NONE_MATCH,
+};
 use axum::http::{HeaderMap, Request, StatusCode};
 use futures_util::StreamExt;
 use serde_json::{Value, json};
@@ -14,7 +16,7 @@ use voltour_solver::scenario::Scenario;
 use voltour_solver::solvers::plan_from_order;
 
 use super::{Guard, RestState, router};
-use crate::access::Gate;
+use crate::access::{Gate, Secret};
 use crate::clock::plus;
 use crate::metrics::Metrics;
 use crate::store::fixture::Bench;
@@ -307,7 +309,23 @@ async fn calls_beyond_the_limit_are_told_to_try_again() {
     assert_eq!(refused.headers()["retry-after"], "1");
     assert_eq!(refused.headers()[CONTENT_TYPE], "application/problem+json");
     assert_eq!(ask("/healthz").await.unwrap().status(), 200);
+    assert_eq!(ask("/metrics").await.unwrap().status(), 200, "the service is busy, and not down");
     drop(pictures);
     first.await.unwrap().unwrap();
     assert_eq!(ask("/v1/networks").await.unwrap().status(), 200);
+}
+
+#[tokio::test]
+async fn without_room_no_token_is_looked_up() {
+    let edge = Edge::new().await;
+    let bootstrap = Secret::random().unwrap();
+    let gate = Gate::open(edge.bench.store.reads.clone(), Some(&bootstrap)).await.unwrap();
+    let unknown = Secret::random().unwrap();
+    for (most, status) in [(0, StatusCode::TOO_MANY_REQUESTS), (1, StatusCode::UNAUTHORIZED)] {
+        let routes = router(edge.state.clone(), Guard::new(gate.clone(), false, &[], most));
+        let bearer = format!("Bearer {}", unknown.reveal());
+        let call = Request::get("/v1/networks").header(AUTHORIZATION, bearer);
+        let answer = routes.oneshot(call.body(Body::empty()).unwrap()).await.unwrap();
+        assert_eq!(answer.status(), status);
+    }
 }

@@ -9,7 +9,7 @@ use tokio_util::sync::CancellationToken;
 use voltour_solver::solvers::solve;
 
 use super::Settings;
-use crate::clock::{Clock, minus, seconds};
+use crate::clock::{Clock, minus};
 use crate::domain::{Call, CancelDeparture, ClientId, DepartureId, DepartureState, Refusal};
 use crate::metrics::Metrics;
 use crate::planner::{self, Contest, PlanError, Planned, PolicyPart};
@@ -53,13 +53,14 @@ impl Departing {
             // A thread first: a closed batch has no time to wait for one.
             let Some(_thread) = self.thread().await else { return Ok(()) };
             let Some(batch) = self.close(id, lead).await? else { return Ok(()) };
-            let (start, closed) = (batch.start, self.clock.now());
+            let (start, closed) = (batch.start, self.clock.ran());
             let planned = match self.plan(*batch, lead).await {
                 Err(Stuck::Plan(error)) => return self.give_up(id, &error).await,
                 planned => planned?,
             };
             let Some(Planned { new: plan, policy }) = planned else { return Ok(()) };
-            let took_s = seconds(closed, self.clock.now()).max(0.0);
+            let took = || self.clock.ran().saturating_sub(closed);
+            let took_s = took().as_secs_f64();
             let (status, gap, solver) = (plan.status, plan.gap(), plan.solver.clone());
             match self.writer.call(StorePlan { departure_id: id, start, plan }).await? {
                 Storing::Stored(tour) => {
@@ -73,8 +74,7 @@ impl Departing {
                 Storing::Late => {
                     tracing::warn!(departure = %id, %start, "the plan came after its second 0");
                     // The batch is larger than the lead was meant for.
-                    let took = Duration::try_from_secs_f64(seconds(closed, self.clock.now()));
-                    lead = 2 * lead.max(took.unwrap_or_default()).min(self.settings.max_late);
+                    lead = lead.max(took()).saturating_mul(2).min(self.settings.max_late);
                 }
             }
         }

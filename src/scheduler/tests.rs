@@ -1,6 +1,6 @@
 //! The scheduler as it runs: the clock is set, and what is due happens.
 
-use std::sync::Arc;
+use std::sync::{Arc, Once};
 use std::time::Duration;
 
 use jiff::Timestamp;
@@ -240,8 +240,31 @@ impl Clock for Slow {
     }
 }
 
-#[tokio::test]
-async fn a_plan_that_comes_late_is_made_again_with_the_lead_that_it_took() {
+/// A clock that is set on, once, while the planner measures how long it takes, which is no time at all.
+#[derive(Debug)]
+struct SetOn(Arc<ManualClock>, Once);
+
+impl Clock for SetOn {
+    fn now(&self) -> Timestamp {
+        self.0.now()
+    }
+
+    fn ran(&self) -> Duration {
+        self.1.call_once(|| self.0.set(plus(self.0.now(), Duration::from_secs(100))));
+        self.0.ran()
+    }
+
+    fn sleep_until(&self, time: Timestamp) -> Sleep<'_> {
+        self.0.sleep_until(time)
+    }
+
+    fn pause(&self, length: Duration) -> Sleep<'_> {
+        self.0.pause(length)
+    }
+}
+
+/// The lead, in seconds, with which a departure was planned, by a clock made of that of the store.
+async fn lead_s<C: Clock>(of: impl FnOnce(Arc<ManualClock>) -> C) -> f64 {
     let bench = Bench::new().await;
     bench.submit("s1").await;
     let id = bench.announce("c").await;
@@ -249,7 +272,7 @@ async fn a_plan_that_comes_late_is_made_again_with_the_lead_that_it_took() {
     let departing = Departing {
         writer: store.writer.clone(),
         reads: store.reads.clone(),
-        clock: Arc::new(Slow(clock.clone())),
+        clock: Arc::new(of(clock.clone())),
         settings: Settings { budget: Duration::ZERO, ..Settings::default() },
         policies: Shelf::of(Policies::none()),
         metrics: Metrics::default(),
@@ -259,8 +282,19 @@ async fn a_plan_that_comes_late_is_made_again_with_the_lead_that_it_took() {
     timeout(Duration::from_secs(20), departing.depart(id)).await.unwrap().unwrap();
     let departure = store.reads.departure(id).await.unwrap().unwrap();
     assert_eq!(departure.state, DepartureState::Planned);
-    // It was closed again, and second 0 had not passed when the plan was stored.
-    let lead = seconds(departure.closes_at, departure.start.unwrap());
-    assert!(lead > Settings::default().lead.as_secs_f64(), "{lead}");
+    // Second 0 had not passed when the plan was stored.
     assert!(departure.start.unwrap() >= clock.now());
+    seconds(departure.closes_at, departure.start.unwrap())
+}
+
+#[tokio::test]
+async fn a_plan_that_comes_late_is_made_again_with_the_lead_that_it_took() {
+    let lead_s = lead_s(Slow).await;
+    assert!(lead_s > Settings::default().lead.as_secs_f64(), "{lead_s}");
+}
+
+#[tokio::test]
+async fn a_clock_that_is_set_while_a_plan_is_made_is_no_time_that_it_took() {
+    let lead_s = lead_s(|clock| SetOn(clock, Once::new())).await;
+    assert_eq!(lead_s, 2.0 * Settings::default().lead.as_secs_f64(), "it was late, and quick");
 }

@@ -1,15 +1,23 @@
-//! Connections to the REST edge: so many and no more, and none for those who are slow to ask.
+//! Connections: so many and no more, none for those who are slow to ask, and an end that waits for nobody.
 
 use std::io::{Read, Write};
 use std::net::TcpStream;
 
 use crate::app::{PATIENCE, TestApp};
-use crate::calls::MOMENT;
+use crate::calls::{MOMENT, OPEN};
+use crate::field::line;
 use crate::limits::limited;
+
+/// What a client of HTTP/2 begins with, and its settings.
+const PREFACE: &[u8] = b"PRI * HTTP/2.0\r\n\r\nSM\r\n\r\n\0\0\0\x04\0\0\0\0\0";
 
 /// A connection to the REST edge on which nothing was said yet.
 fn connect(app: &TestApp) -> TcpStream {
-    let stream = TcpStream::connect(app.rest.trim_start_matches("http://")).unwrap();
+    connect_to(&app.rest)
+}
+
+fn connect_to(edge: &str) -> TcpStream {
+    let stream = TcpStream::connect(edge.trim_start_matches("http://")).unwrap();
     stream.set_read_timeout(Some(PATIENCE)).unwrap();
     stream
 }
@@ -26,6 +34,45 @@ async fn who_is_slow_to_ask_loses_the_connection() {
         assert!(!answer.starts_with(b"HTTP/1.1 200"), "{said}");
     }
     assert_eq!(app.get("/healthz").await.status(), 200);
+}
+
+#[tokio::test]
+async fn who_does_not_begin_to_speak_to_grpc_loses_the_connection() {
+    let app = TestApp::with(limited("slow_client = \"1s\"")).await;
+    for said in [&b""[..], &PREFACE[..23]] {
+        let mut slow = connect_to(&app.grpc);
+        slow.write_all(said).unwrap();
+        // What the service says first is its settings.
+        slow.read_to_end(&mut Vec::new()).expect("it is closed");
+    }
+    // The client that has spoken is silent for as long as it likes.
+    app.put(line(1)).await;
+}
+
+#[tokio::test]
+async fn the_end_waits_for_nobody_who_is_slow_to_ask() {
+    let mut app = TestApp::start().await;
+    app.put(line(1)).await;
+    let said = [
+        (&app.grpc, &b""[..]),
+        (&app.grpc, &PREFACE[..23]),
+        // It never answers when it is told to go.
+        (&app.grpc, PREFACE),
+        (&app.rest, b"GET /healthz HTTP/1.1\r\nHost: local"),
+    ];
+    let slow: Vec<_> = said
+        .into_iter()
+        .map(|(edge, said)| {
+            let mut slow = connect_to(edge);
+            slow.write_all(said).unwrap();
+            slow
+        })
+        .collect();
+    // Accepted after them, and answered.
+    assert_eq!(app.get("/healthz").await.status(), 200);
+    assert_eq!(app.ask("s1").await.state, OPEN);
+    assert_eq!(app.sigterm().await.code(), Some(0));
+    drop(slow);
 }
 
 #[tokio::test]

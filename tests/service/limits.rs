@@ -3,6 +3,8 @@
 
 use prost::Message;
 use tonic::{Code, Status};
+use tonic_health::pb::HealthCheckRequest;
+use tonic_health::pb::health_client::HealthClient;
 use tonic_types::StatusExt;
 use voltour::proto::{
     AnnounceRequest, GetNetworkRequest, GetNextRequest, PutNetworkRequest, SubmitRequest,
@@ -176,11 +178,34 @@ async fn calls_beyond_the_limit_are_refused_and_health_is_told_all_the_same() {
     let watch = WatchRequestsRequest { network_id: FIELD.into() };
     let open = app.requests().watch(watch).await.unwrap();
     exhausted(&app.requests().submit(request("s1")).await.unwrap_err(), "limits.all_calls");
-    let mut health = tonic_health::pb::health_client::HealthClient::new(app.channel());
-    health.check(tonic_health::pb::HealthCheckRequest::default()).await.expect("it lives");
+    let mut health = HealthClient::new(app.channel());
+    health.check(HealthCheckRequest::default()).await.expect("it lives");
     drop(open);
     until("room for another call", || async { app.requests().submit(request("s1")).await.ok() })
         .await;
+}
+
+#[tokio::test]
+async fn health_watches_take_no_room_of_other_calls_and_have_a_limit_of_their_own() {
+    let app = TestApp::with(limited("all_calls = 1")).await;
+    app.put(line(1)).await;
+    let mut health = HealthClient::new(app.channel());
+    let mut watches = Vec::new();
+    let refused = loop {
+        match health.watch(HealthCheckRequest::default()).await {
+            Ok(watch) => watches.push(watch),
+            Err(refused) => break refused,
+        }
+        assert!(watches.len() <= 1_000, "they have no limit");
+        assert_eq!(app.ask("s1").await.state, OPEN, "beside {} health watches", watches.len());
+    };
+    exhausted(&refused, "health watches");
+    health.check(HealthCheckRequest::default()).await.expect("it lives");
+    drop(watches);
+    until("room for another health watch", || async {
+        health.clone().watch(HealthCheckRequest::default()).await.ok()
+    })
+    .await;
 }
 
 #[tokio::test]

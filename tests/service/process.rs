@@ -1,6 +1,10 @@
 //! The process: one a database, a clean end, configuration, health and reflection.
 
-use std::process::{Command, Stdio};
+use std::fs::File;
+use std::io::{BufRead, BufReader};
+use std::process::{Child, Command, Stdio};
+use std::sync::mpsc;
+use std::thread;
 
 use prost::Message;
 use prost_types::{FileDescriptorProto, FileDescriptorSet};
@@ -11,7 +15,7 @@ use tonic_health::pb::health_client::HealthClient;
 use tonic_types::StatusExt;
 use voltour::proto::{AnnounceRequest, GetRequestRequest, SubmitRequest, WatchRequestsRequest};
 
-use crate::app::{TestApp, wait_exit};
+use crate::app::{PATIENCE, TestApp, wait_exit};
 use crate::calls::{OPEN, soon};
 use crate::field::{FIELD, departure, line};
 use crate::time::from_now;
@@ -202,6 +206,68 @@ async fn a_bad_configuration_is_refused_with_the_name_of_the_field() {
         assert!(said.contains(field), "{text:?}: {said}");
         assert!(output.stdout.is_empty());
     }
+}
+
+/// What something comes to that would wait for ever where the server does not do its part.
+fn in_time<T: Send + 'static>(what: &str, work: impl FnOnce() -> T + Send + 'static) -> T {
+    let (send, done) = mpsc::channel();
+    thread::spawn(move || send.send(work()));
+    done.recv_timeout(PATIENCE).unwrap_or_else(|_| panic!("{what} never came"))
+}
+
+/// A server whose start waits for a model that comes through a pipe; the end of the pipe, once it does.
+fn starting(app: &TestApp) -> (Child, File) {
+    let (folder, store) = (app.file("models"), app.file("starting.db"));
+    std::fs::create_dir(&folder).unwrap();
+    let pipe = folder.join("reward.onnx");
+    assert!(Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+    let server = serve()
+        .arg("--config")
+        .arg(app.config_path())
+        .env("VOLTOUR_STORE__PATH", store)
+        .env("VOLTOUR_POLICY__FOLDER", folder)
+        .spawn()
+        .unwrap();
+    // Opened once the other end is.
+    let opened = pipe.clone();
+    let end = in_time("the start", move || File::options().write(true).open(opened).unwrap());
+    std::fs::remove_file(&pipe).unwrap();
+    (server, end)
+}
+
+fn send(signal: &str, server: &Child) {
+    let pid = server.id().to_string();
+    assert!(Command::new("kill").args([signal, &pid]).status().unwrap().success());
+}
+
+#[tokio::test]
+async fn a_hangup_during_the_start_does_not_end_it() {
+    let app = TestApp::start().await;
+    let (mut server, end) = starting(&app);
+    send("-HUP", &server);
+    drop(end);
+    let stdout = BufReader::new(server.stdout.take().unwrap());
+    let line = in_time("the first line", || stdout.lines().next());
+    let line = line.and_then(Result::ok).unwrap_or_default();
+    send("-TERM", &server);
+    let status = wait_exit(&mut server).await;
+    let _ = server.kill();
+    assert!(line.starts_with("voltour ready "), "{line:?}, {status:?}");
+    assert_eq!(status.and_then(|status| status.code()), Some(0));
+}
+
+#[tokio::test]
+async fn a_second_signal_during_the_start_ends_it_at_once() {
+    let app = TestApp::start().await;
+    let (mut server, _end) = starting(&app);
+    let mut said = BufReader::new(server.stderr.take().unwrap()).lines().map_while(Result::ok);
+    // Two of which nothing is heard in between are one to the process.
+    send("-TERM", &server);
+    assert!(in_time("the first signal", move || said.any(|line| line.contains("stopping"))));
+    send("-TERM", &server);
+    let status = wait_exit(&mut server).await;
+    let _ = server.kill();
+    assert_eq!(status.and_then(|status| status.code()), Some(1));
 }
 
 #[tokio::test]

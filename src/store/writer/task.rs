@@ -14,7 +14,7 @@ use tracing::Instrument;
 
 use super::job::{Asked, Command, Job};
 use super::writing::Writing;
-use crate::clock::{Clock, Ids, seconds, unix_s};
+use crate::clock::{Clock, Ids, unix_s};
 use crate::domain::Refusal;
 use crate::metrics::WriterMetrics;
 use crate::store::open::{self, Database};
@@ -218,10 +218,8 @@ impl Work {
         }
         sqlx::query("COMMIT").execute(&mut writing.conn).await.map_err(database)?;
         self.publish(writing, before);
-        let committed = writing.clock_now();
-        // The wall clock may have been set back meanwhile.
-        let took_s = seconds(writing.now, committed).max(0.0);
-        self.metrics.committed(commands, took_s, unix_s(committed));
+        let took_s = writing.ran().as_secs_f64();
+        self.metrics.committed(commands, took_s, unix_s(writing.clock_now()));
         writing.tally.tell(&self.metrics);
         Ok(())
     }

@@ -8,8 +8,9 @@ use tokio::sync::Notify;
 
 use super::task::QUEUE;
 use super::{Command, Failure, Writing};
-use crate::clock::SystemClock;
+use crate::clock::{Clock, ManualClock, SystemClock, plus};
 use crate::domain::Refusal;
+use crate::metrics::Metrics;
 use crate::store::fixture::{Bench, asks, call};
 use crate::store::{Store, StoreError, Submit};
 
@@ -51,6 +52,29 @@ impl Command for FailCommit {
             .await?;
         Ok(())
     }
+}
+
+/// Takes two seconds, in which the wall clock is set on by an hour.
+struct SetOn(Arc<ManualClock>);
+
+impl Command for SetOn {
+    type Answer = ();
+
+    async fn apply(&self, _: &mut Writing) -> Result<(), Failure> {
+        self.0.set(plus(self.0.now(), Duration::from_secs(3_600)));
+        self.0.advance(Duration::from_secs(2));
+        Ok(())
+    }
+}
+
+#[tokio::test]
+async fn a_clock_that_is_set_makes_no_transaction_longer() {
+    let bench = Bench::new().await;
+    let metrics = Metrics::new(bench.clock.clone(), bench.store.writer.metrics());
+    bench.store.writer.call(SetOn(bench.clock.clone())).await.unwrap();
+    // The answer comes when the transaction has been counted.
+    let text = metrics.text().unwrap();
+    assert!(text.lines().any(|line| line == "voltour_commit_time_seconds_sum 2.0"), "{text}");
 }
 
 #[tokio::test]

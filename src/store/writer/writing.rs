@@ -2,6 +2,7 @@
 //! the numbers to give out, and what is known without asking.
 
 use std::sync::Arc;
+use std::time::Duration;
 
 use jiff::Timestamp;
 use sqlx::{Connection, SqliteConnection};
@@ -25,15 +26,17 @@ pub(crate) struct Writing {
     /// What is counted once it is committed.
     pub(in crate::store) tally: Tally,
     clock: Arc<dyn Clock>,
+    /// What the clock had run then.
+    began: Duration,
     ids: Ids,
     change: u64,
 }
 
 impl Writing {
     pub fn new(conn: SqliteConnection, change: u64, clock: Arc<dyn Clock>, ids: Ids) -> Self {
-        let (now, networks) = (clock.now(), Networks::default());
-        let tally = Tally::default();
-        Self { conn, now, networks, tours_moved: false, tally, clock, ids, change }
+        let (now, began) = (clock.now(), clock.ran());
+        let (networks, tally) = (Networks::default(), Tally::default());
+        Self { conn, now, networks, tours_moved: false, tally, clock, began, ids, change }
     }
 
     /// Closes the connection, whatever its state; what remains goes to the next one.
@@ -78,9 +81,14 @@ impl Writing {
         self.clock.now()
     }
 
+    /// How long the transaction has run.
+    pub fn ran(&self) -> Duration {
+        self.clock.ran().saturating_sub(self.began)
+    }
+
     /// Begins: reads the clock.
     pub fn begun(&mut self) {
-        self.now = self.clock.now();
+        (self.now, self.began) = (self.clock.now(), self.clock.ran());
         self.tours_moved = false;
         self.tally = Tally::default();
     }
