@@ -90,14 +90,14 @@ fn put(
     replace: bool,
     aside: Option<&Path>,
 ) -> Result<(), StoreError> {
-    for end in ["-wal", "-shm"] {
-        did(fs::remove_file(with(database, end)), database)?;
-    }
-    durable::sync_folder(database)?;
-    if let Err(error) = durable::put(part, database, replace) {
-        // The database from before is still there, and gets its log back.
+    let replaced = ["-wal", "-shm"]
+        .into_iter()
+        .try_for_each(|end| did(fs::remove_file(with(database, end)), database).map(drop));
+    let replaced = replaced.and_then(|()| durable::sync_folder(database));
+    if let Err(error) = replaced.and_then(|()| durable::put(part, database, replace)) {
+        // The database from before is still there, and gets its log back; where it cannot, the error says where both lie.
         if let Some(aside) = aside {
-            did(fs::hard_link(with(aside, "-wal"), with(database, "-wal")), database)?;
+            let _ = fs::hard_link(with(aside, "-wal"), with(database, "-wal"));
         }
         return Err(error);
     }
