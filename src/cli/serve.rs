@@ -56,7 +56,7 @@ Configuration, as TOML (these are the defaults):
   [store]
   path = \"voltour.db\"          # made where there is none
   [retention]
-  history = \"90d\"              # left out, everything is kept for good
+  # history = \"90d\"            # left out, everything is kept for good
   [planning]
   solver = \"auto\"
   budget = \"2s\"                # time that the search for a tour may take

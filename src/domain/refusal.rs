@@ -53,7 +53,7 @@ pub enum Refusal {
         /// What there is too much of.
         reason: String,
     },
-    /// The database cannot be written now; nothing was stored, try again.
+    /// The database cannot be written now; perhaps nothing was stored, try again under the same id.
     #[error("{0}")]
     Unavailable(String),
     /// A defect of the service.

@@ -43,19 +43,20 @@ impl Retention {
         Self { writer, clock, history, cancel, begun }
     }
 
-    /// Runs until it is cancelled.
+    /// Runs until it is cancelled. A look comes only after a while: the clock of a machine that has just started may
+    /// be wrong, and is seen to be set until then.
     pub async fn run(self) {
-        while !self.cancel.is_cancelled() {
+        loop {
+            tokio::select! {
+                () = self.cancel.cancelled() => return,
+                () = self.clock.pause(LOOK) => {}
+            }
             match self.round().await {
                 Ok(gone) if gone == Forgotten::default() => {}
                 Ok(Forgotten { departures, requests, calls }) => {
                     tracing::info!(departures, requests, calls, "deleted what was over for long");
                 }
                 Err(error) => tracing::warn!(%error, "nothing can be deleted now"),
-            }
-            tokio::select! {
-                () = self.cancel.cancelled() => {}
-                () = self.clock.pause(LOOK) => {}
             }
         }
     }
@@ -110,14 +111,33 @@ mod tests {
             bench.submit("s1").await;
         }
         let last = bench.submit("s2").await;
+        let right = bench.clock.now();
         let retention = of(&bench);
-        bench.clock.set(plus(bench.clock.now(), 100 * SHORTEST));
+        bench.clock.set(plus(right, 100 * SHORTEST));
         assert_eq!(retention.round().await.unwrap(), Forgotten::default());
         assert_eq!(retention.before(), None);
-        bench.clock.set(plus(bench.clock.now(), Duration::ZERO));
-        // A service that starts with that clock has no reason to doubt it.
-        let gone = of(&bench).round().await.unwrap();
+        // Wrong at the start, and put right afterwards.
+        let started = of(&bench);
+        bench.clock.set(right);
+        assert_eq!(started.before(), None);
+        assert!(retention.before().is_some(), "it is as it was");
+        bench.clock.advance(100 * SHORTEST);
+        let gone = retention.round().await.unwrap();
         assert_eq!(gone.requests, 249, "all that was superseded, over several portions");
         assert_eq!(bench.state(last.id).await, RequestState::Open);
+    }
+
+    #[tokio::test]
+    async fn a_clock_is_not_believed_at_once() {
+        let bench = Bench::new().await;
+        let first = bench.submit("s1").await;
+        bench.clock.set(plus(bench.clock.now(), 100 * SHORTEST));
+        bench.submit("s1").await;
+        let running = tokio::spawn(of(&bench).run());
+        tokio::task::yield_now().await;
+        // Whatever it deletes at once is gone when this is stored.
+        bench.submit("s2").await;
+        assert_eq!(bench.state(first.id).await, RequestState::Superseded);
+        running.abort();
     }
 }

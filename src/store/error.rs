@@ -55,6 +55,14 @@ pub enum StoreError {
     /// A database with a log, which is no backup.
     #[error("{} lies beside it: this is the copy of an open database, not a backup made by voltour backup", .0.display())]
     Logged(PathBuf),
+    /// A restore that went wrong after it had kept the database from before.
+    #[error("{cause}; the database from before is kept as {}", aside.display())]
+    SetAside {
+        /// Where it lies now.
+        aside: PathBuf,
+        /// What went wrong.
+        cause: Box<StoreError>,
+    },
     /// A file cannot be read or written.
     #[error("{}: {source}", path.display())]
     File {
@@ -88,7 +96,7 @@ pub enum StoreError {
     /// A task of the service ended as it should not.
     #[error("task: {0}")]
     Task(String),
-    /// The service was ended while nothing could be written.
+    /// Nothing can be written, or could be when the service was ended.
     #[error("{0}")]
     Troubled(Trouble),
     /// The database does not hold what it held.

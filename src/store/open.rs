@@ -1,7 +1,7 @@
 //! Opening the database: the lock, the schema, the connections; and opening it again after a failed
 //! write.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -35,7 +35,8 @@ impl Store {
     /// # Errors
     /// Another process has it open, or it cannot be opened, migrated or verified.
     pub async fn open(path: &Path, clock: Arc<dyn Clock>) -> Result<Self, StoreError> {
-        let database = Database { path: path.to_owned(), _lock: Lock::take(path)? };
+        let database = Database { lock: Lock::take(path)? };
+        let path = &database.path().to_owned();
         let (mut conn, change) = database.open().await.map_err(|error| damaged(path, error))?;
         let pool = SqlitePoolOptions::new().max_connections(READERS).acquire_timeout(PATIENCE);
         let (tell, trouble) = watch::channel(None);
@@ -73,28 +74,39 @@ fn options(path: &Path) -> SqliteConnectOptions {
 /// The database file, locked.
 #[derive(Debug)]
 pub(super) struct Database {
-    path: PathBuf,
-    _lock: Lock,
+    lock: Lock,
 }
 
 impl Database {
+    fn path(&self) -> &Path {
+        self.lock.database()
+    }
+
     /// The connection that writes, and the last change. All of the database is looked at first: what is
     /// damaged must not be built upon.
     pub async fn open(&self) -> Result<(SqliteConnection, u64), StoreError> {
-        if self.path.exists() {
-            check(&self.path).await?;
+        if self.path().exists() {
+            check(self.path()).await?;
         }
-        let mut conn = connect(&self.path, true).await?;
+        let mut conn = connect(self.path(), true).await?;
         schema::bring_up(&mut conn).await?;
         let change = last_change(&mut conn).await?;
         Ok((conn, change))
     }
 
     /// Opens the database again after a failed write. What was acknowledged must be there: a last
-    /// change before `acknowledged` is a database that has lost something.
-    pub async fn reopen(&self, acknowledged: u64) -> Result<(SqliteConnection, u64), StoreError> {
-        check(&self.path).await?;
-        let mut conn = connect(&self.path, false).await?;
+    /// change before `acknowledged` is a database that has lost something. Unless it `is_whole` already, all of
+    /// it is looked at, and then it is.
+    pub async fn reopen(
+        &self,
+        acknowledged: u64,
+        is_whole: &mut bool,
+    ) -> Result<(SqliteConnection, u64), StoreError> {
+        if !*is_whole {
+            check(self.path()).await?;
+            *is_whole = true;
+        }
+        let mut conn = connect(self.path(), false).await?;
         let change = last_change(&mut conn).await?;
         if change < acknowledged {
             let reason = format!("the last change is {change}, {acknowledged} was acknowledged");
@@ -102,7 +114,11 @@ impl Database {
         }
         // What the failed transaction wrote may have been kept all the same, unacknowledged. Writing
         // it back into the file before anything else shows that syncing works again.
-        sqlx::query("PRAGMA wal_checkpoint(TRUNCATE)").execute(&mut conn).await?;
+        let checkpoint = "PRAGMA wal_checkpoint(TRUNCATE)";
+        let (busy, _, _): (i64, i64, i64) = sqlx::query_as(checkpoint).fetch_one(&mut conn).await?;
+        if busy != 0 {
+            return Err(StoreError::Troubled(Trouble::Locked));
+        }
         // A transaction of one page, synced, which changes nothing: there is room, and nobody holds a lock.
         sqlx::query("PRAGMA user_version = 0").execute(&mut conn).await?;
         Ok((conn, change))

@@ -36,6 +36,7 @@ impl Trouble {
                 _ => Self::Failing,
             }),
             StoreError::Database(sqlx::Error::WorkerCrashed) => Some(Self::Failing),
+            StoreError::Troubled(trouble) => Some(*trouble),
             StoreError::Verification(_) | StoreError::Damaged { .. } | StoreError::Foreign => {
                 Some(Self::Damaged)
             }
@@ -65,9 +66,14 @@ impl Trouble {
         }
     }
 
-    /// What the callers hear whose commands were not stored.
+    /// What the callers hear whose commands were not acknowledged.
     pub fn refusal(self) -> Refusal {
-        let reason = format!("{self}, nothing was stored: try again");
+        let stored = match self {
+            // A commit whose sync failed may have been kept all the same; its id finds it.
+            Self::Failing => "perhaps nothing was stored: try again under the same id",
+            _ => "nothing was stored: try again",
+        };
+        let reason = format!("{self}, {stored}");
         match self {
             Self::Full => Refusal::exhausted("the space on the disk", reason),
             _ => Refusal::Unavailable(reason),

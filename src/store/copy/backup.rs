@@ -42,6 +42,8 @@ pub async fn backup(database: &Path, file: &Path, replace: bool) -> Result<Verif
     into.execute(&mut conn).await?;
     conn.close().await?;
     let verified = verify(part.path()).await?;
-    durable::keep(part, file, replace)?;
+    durable::sync(&part, file)?;
+    durable::put(part, file, replace)?;
+    durable::sync_folder(file)?;
     Ok(verified)
 }

@@ -2,6 +2,7 @@
 //! renamed, and the folder synced.
 
 use std::fs::File;
+use std::io;
 use std::path::Path;
 
 use tempfile::NamedTempFile;
@@ -22,18 +23,31 @@ pub(super) fn beside(file: &Path) -> Result<NamedTempFile, StoreError> {
     made.map_err(|source| StoreError::file(file, source))
 }
 
-/// Puts a file in its place, for good; over another one only if `replace` says so.
-pub(super) fn keep(part: NamedTempFile, file: &Path, replace: bool) -> Result<(), StoreError> {
-    let failed = |source| StoreError::file(file, source);
+/// The bytes of another file in such a one, and nothing else of it: neither its mode nor its owner.
+pub(super) fn copied(from: &Path, file: &Path) -> Result<NamedTempFile, StoreError> {
+    let part = beside(file)?;
+    let mut source = File::open(from).map_err(|source| StoreError::file(from, source))?;
+    let copied = io::copy(&mut source, &mut part.as_file());
+    copied.map_err(|source| StoreError::file(from, source))?;
+    Ok(part)
+}
+
+/// Makes what is in a file last.
+pub(super) fn sync(part: &NamedTempFile, file: &Path) -> Result<(), StoreError> {
     // By its name: the database wrote it through a handle of its own.
-    File::open(part.path()).and_then(|part| part.sync_all()).map_err(failed)?;
-    let kept = if replace { part.persist(file) } else { part.persist_noclobber(file) };
-    match kept {
-        Ok(_) => sync_folder(file),
-        Err(error) if error.error.kind() == std::io::ErrorKind::AlreadyExists => {
+    let synced = File::open(part.path()).and_then(|part| part.sync_all());
+    synced.map_err(|source| StoreError::file(file, source))
+}
+
+/// Puts a synced file in its place; over another one only if `replace` says so.
+pub(super) fn put(part: NamedTempFile, file: &Path, replace: bool) -> Result<(), StoreError> {
+    let put = if replace { part.persist(file) } else { part.persist_noclobber(file) };
+    match put {
+        Ok(_) => Ok(()),
+        Err(error) if error.error.kind() == io::ErrorKind::AlreadyExists => {
             Err(StoreError::Exists(file.to_owned()))
         }
-        Err(error) => Err(failed(error.error)),
+        Err(error) => Err(StoreError::file(file, error.error)),
     }
 }
 

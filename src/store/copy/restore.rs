@@ -5,11 +5,12 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use jiff::Timestamp;
+use tempfile::NamedTempFile;
 
 use super::durable;
 use super::verify::{Verified, verify};
-use crate::store::StoreError;
 use crate::store::lock::Lock;
+use crate::store::{StoreError, open};
 
 /// What came of it.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -40,33 +41,67 @@ pub async fn restore(
     if fs::metadata(&log).is_ok_and(|log| log.len() > 0) {
         return Err(StoreError::Logged(log));
     }
-    let _lock = Lock::take(database)?;
+    let lock = Lock::take(database)?;
+    let database = lock.database();
     if database.exists() && !replace {
         return Err(StoreError::Exists(database.to_owned()));
     }
-    let part = durable::beside(database)?;
-    fs::copy(backup, part.path()).map_err(|source| StoreError::file(backup, source))?;
+    let part = durable::copied(backup, database)?;
     let verified = verify(part.path()).await.map_err(|error| of(backup, error))?;
-    let aside = set_aside(database, now)?;
-    durable::keep(part, database, false)?;
-    Ok(Restored { verified, aside })
+    durable::sync(&part, database)?;
+    fold(database).await;
+    let aside = keep_aside(database, now)?;
+    match put(part, database, replace, aside.as_deref()) {
+        Ok(()) => Ok(Restored { verified, aside }),
+        Err(cause) => Err(match aside {
+            Some(aside) => StoreError::SetAside { aside, cause: Box::new(cause) },
+            None => cause,
+        }),
+    }
 }
 
-/// Keeps a database under another name, with its log, which it is not whole without; also a log that was left
-/// alone. It has both names before it loses the first, so that whatever cuts this short loses nothing.
-fn set_aside(database: &Path, now: Timestamp) -> Result<Option<PathBuf>, StoreError> {
+/// Writes the log that a crash has left into its database, which is whole without it then. Where that cannot be done,
+/// the database is no good to any service: both are kept aside as they are.
+async fn fold(database: &Path) {
+    if fs::metadata(with(database, "-wal")).is_ok_and(|log| log.len() > 0)
+        && let Ok(conn) = open::connect(database, false).await
+        && let Err(error) = open::close(conn).await
+    {
+        tracing::debug!(%error, "the log stays beside the database");
+    }
+}
+
+/// Gives a database another name, which it keeps, with its log; also a log that was left alone.
+pub(super) fn keep_aside(database: &Path, now: Timestamp) -> Result<Option<PathBuf>, StoreError> {
     let aside = with(database, &format!(".before-restore-{}", now.strftime("%Y%m%dT%H%M%SZ")));
     let mut kept = false;
     for end in ["", "-wal"] {
         kept |= did(fs::hard_link(with(database, end), with(&aside, end)), &aside)?;
     }
     durable::sync_folder(database)?;
-    // The database first: without its log it would be opened as if nothing were missing.
-    for end in ["", "-wal", "-shm"] {
-        did(fs::remove_file(with(database, end)), database)?;
-    }
-    durable::sync_folder(database)?;
     Ok(kept.then_some(aside))
+}
+
+/// Puts the copy over the database: there is always one, whatever cuts this short. The log goes before, for it would
+/// be taken for the copy's.
+fn put(
+    part: NamedTempFile,
+    database: &Path,
+    replace: bool,
+    aside: Option<&Path>,
+) -> Result<(), StoreError> {
+    let replaced = ["-wal", "-shm"]
+        .into_iter()
+        .try_for_each(|end| did(fs::remove_file(with(database, end)), database).map(drop));
+    let replaced = replaced.and_then(|()| durable::sync_folder(database));
+    if let Err(error) = replaced.and_then(|()| durable::put(part, database, replace)) {
+        // The database from before is still there, and gets its log back; where it cannot, the error says where both lie.
+        if let Some(aside) = aside {
+            let _ = fs::hard_link(with(aside, "-wal"), with(database, "-wal"));
+        }
+        return Err(error);
+    }
+    durable::sync_folder(database)
 }
 
 /// Whether there was anything to do it with.

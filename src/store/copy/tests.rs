@@ -1,6 +1,7 @@
 //! Copies of databases that are whole, and what is refused.
 
 use std::fs;
+use std::os::unix::fs::{PermissionsExt, symlink};
 
 use super::{backup, restore};
 use crate::clock::Clock;
@@ -75,6 +76,72 @@ async fn a_database_is_set_aside_with_its_log() {
     assert!(store.reads.request(last.id).await.unwrap().is_some());
     let store = crate::store::Store::open(&crashed, bench.clock.clone()).await.unwrap();
     assert!(store.reads.request(last.id).await.unwrap().is_none(), "no log of the former one");
+}
+
+/// The moment before the copy gets the name.
+#[tokio::test]
+async fn a_restore_that_is_cut_short_leaves_the_database() {
+    let bench = Bench::new().await;
+    let last = bench.submit("s1").await;
+    let (clock, db) = (bench.clock.clone(), bench.path());
+    let (dir, _, store) = bench.parts();
+    store.close().await.unwrap();
+    let aside = super::restore::keep_aside(&db, clock.now()).unwrap().unwrap();
+    for file in [db, aside] {
+        let store = crate::store::Store::open(&file, clock.clone()).await.unwrap();
+        assert!(store.reads.request(last.id).await.unwrap().is_some(), "{}", file.display());
+        store.close().await.unwrap();
+    }
+    drop(dir);
+}
+
+#[tokio::test]
+async fn a_restored_database_is_its_owners_alone_whatever_the_backup_was() {
+    let bench = Bench::new().await;
+    let (file, target) = (bench.dir.path().join("copy"), bench.dir.path().join("new"));
+    backup(&bench.path(), &file, false).await.unwrap();
+    for mode in [0o444, 0o644] {
+        fs::set_permissions(&file, fs::Permissions::from_mode(mode)).unwrap();
+        restore(&file, &target, true, bench.clock.now()).await.unwrap();
+        let restored = fs::metadata(&target).unwrap().permissions().mode() & 0o777;
+        assert_eq!(restored, 0o600, "of {mode:o}");
+        bench.clock.advance(std::time::Duration::from_secs(1));
+    }
+}
+
+#[tokio::test]
+async fn a_database_has_one_lock_and_one_place_by_whatever_name() {
+    let bench = Bench::new().await;
+    let kept = bench.submit("s1").await;
+    let (db, link) = (bench.path(), bench.dir.path().join("link"));
+    let (file, folder) = (bench.dir.path().join("copy"), bench.dir.path().join("folder"));
+    backup(&db, &file, false).await.unwrap();
+    symlink("db", &link).unwrap();
+    symlink(bench.dir.path(), &folder).unwrap();
+    for name in [link.clone(), folder.join("db"), folder.join("link")] {
+        let second = crate::store::Store::open(&name, bench.clock.clone()).await;
+        assert!(matches!(second, Err(StoreError::InUse(_))), "{}: {second:?}", name.display());
+    }
+    let now = bench.clock.now();
+    let in_use = restore(&file, &link, true, now).await;
+    assert!(matches!(in_use, Err(StoreError::InUse(_))), "{in_use:?}");
+    let later = bench.submit("s2").await;
+    let clock = bench.clock.clone();
+    let (dir, _, store) = bench.parts();
+    store.close().await.unwrap();
+    restore(&file, &link, true, now).await.unwrap();
+    assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
+    let store = crate::store::Store::open(&db, clock.clone()).await.unwrap();
+    assert!(store.reads.request(kept.id).await.unwrap().is_some());
+    assert!(store.reads.request(later.id).await.unwrap().is_none(), "it is the backup");
+    store.close().await.unwrap();
+    // A link to a database that is not made yet.
+    let (early, made) = (dir.path().join("early"), dir.path().join("made"));
+    symlink("made", &early).unwrap();
+    let store = crate::store::Store::open(&early, clock.clone()).await.unwrap();
+    let second = crate::store::Store::open(&made, clock).await;
+    assert!(matches!(second, Err(StoreError::InUse(_))), "{second:?}");
+    store.close().await.unwrap();
 }
 
 #[tokio::test]

@@ -32,6 +32,8 @@ const LOOKS: u32 = 3;
 const FIRST_PAUSE: Duration = Duration::from_millis(50);
 /// And the longest.
 const LONGEST_PAUSE: Duration = Duration::from_secs(10);
+/// Nobody is refused for a trouble that is over sooner.
+const BRIEF: Duration = Duration::from_secs(1);
 
 /// The handle of the writer; cheap to clone.
 #[derive(Clone)]
@@ -273,16 +275,23 @@ impl Work {
         let acknowledged = *self.committed.borrow();
         let (clock, ids) = writing.closed().await;
         let (mut pause, mut damaged) = (Duration::ZERO, 0);
+        // Whoever finds a lock has written nothing.
+        let mut is_whole = trouble == Trouble::Locked;
         loop {
             self.trouble.send_replace(Some(trouble));
             let reopening = async {
                 clock.pause(pause).await;
-                self.database.reopen(acknowledged).await
+                self.database.reopen(acknowledged, &mut is_whole).await
+            };
+            let refusing = async {
+                if pause.is_zero() {
+                    clock.pause(BRIEF).await;
+                }
+                refusing(&mut self.jobs, trouble).await
             };
             let reopened = tokio::select! {
                 reopened = reopening => reopened,
-                // Nobody is refused for a trouble that is over at once.
-                never = refusing(&mut self.jobs, trouble), if !pause.is_zero() => match never {},
+                never = refusing => match never {},
                 () = self.stop.cancelled() => Err(StoreError::Troubled(trouble)),
             };
             let error = match reopened {
@@ -299,6 +308,8 @@ impl Work {
             trouble = Trouble::of(&error).unwrap_or(Trouble::Failing);
             tracing::error!(%error, %trouble, "the database cannot be reopened");
             damaged += u32::from(trouble == Trouble::Damaged);
+            // It was found whole, and what could not be written since is in the log. A disk that fails is not believed.
+            is_whole &= matches!(trouble, Trouble::Full | Trouble::ReadOnly | Trouble::Locked);
             if damaged == LOOKS || self.stop.is_cancelled() {
                 self.jobs.close();
                 return Err(error);

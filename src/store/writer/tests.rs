@@ -12,7 +12,7 @@ use crate::clock::{Clock, ManualClock, SystemClock, plus};
 use crate::domain::Refusal;
 use crate::metrics::Metrics;
 use crate::store::fixture::{Bench, asks, call};
-use crate::store::{Store, StoreError, Submit};
+use crate::store::{Store, StoreError, Submit, Trouble};
 
 /// Keeps the writer busy, so that what is called meanwhile is one group.
 struct Dawdle;
@@ -109,6 +109,42 @@ async fn after_a_failed_commit_nothing_is_acknowledged_until_the_database_is_ver
     assert_eq!(again.change, before.change + 1);
     assert!(again.id > before.id);
     assert_eq!(bench.state(again.id).await, crate::domain::RequestState::Open);
+}
+
+/// Until the log is written back, nothing shows that the disk syncs.
+#[tokio::test]
+async fn a_log_that_is_in_use_is_waited_for() {
+    let bench = Bench::new().await;
+    let writer = &bench.store.writer;
+    let mut told = bench.store.reads.trouble();
+    let mut reader = bench.store.reads.pool().begin().await.unwrap();
+    let count = "SELECT count(*) FROM requests";
+    let _: i64 = sqlx::query_scalar(count).fetch_one(&mut *reader).await.unwrap();
+    bench.submit("s0").await;
+    writer.call(FailCommit).await.unwrap_err();
+    told.wait_for(|told| *told == Some(Trouble::Locked)).await.unwrap();
+    reader.rollback().await.unwrap();
+    told.wait_for(Option::is_none).await.unwrap();
+    bench.submit("s1").await;
+}
+
+#[tokio::test]
+async fn callers_do_not_wait_until_a_lock_is_given_up() {
+    let bench = Bench::new().await;
+    let mut told = bench.store.reads.trouble();
+    let mut other = crate::store::open::connect(&bench.path(), false).await.unwrap();
+    sqlx::query("BEGIN IMMEDIATE").execute(&mut other).await.unwrap();
+    bench.try_submit("a", asks("s1")).await.unwrap_err();
+    told.wait_for(Option::is_some).await.unwrap();
+    // It is told again after the first attempt, which waits for the lock.
+    tokio::select! {
+        biased;
+        _ = told.changed() => panic!("the first attempt is over"),
+        refused = bench.try_submit("a", asks("s1")) => assert!(refused.is_err(), "{refused:?}"),
+    }
+    sqlx::query("ROLLBACK").execute(&mut other).await.unwrap();
+    told.wait_for(Option::is_none).await.unwrap();
+    bench.try_submit("a", asks("s1")).await.unwrap();
 }
 
 #[tokio::test]

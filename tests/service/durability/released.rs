@@ -27,9 +27,10 @@ const KEPT: [&str; 8] = [
     "SELECT scope, client_id, hex(fingerprint), answer, created_us FROM calls ORDER BY 1, 2",
     "SELECT id, network_id, sensor_id, client_id, hex(fingerprint), place, deadline_us, ready_us, residual_j, \
      measured_us, drain_w, reward, required, withdraw_us, received_us, \
-     CASE WHEN state IN ('open', 'planned') THEN '' ELSE state END FROM requests ORDER BY 1",
+     CASE WHEN state IN ('open', 'batched', 'planned') THEN '' ELSE state END FROM requests ORDER BY 1",
     "SELECT id, charger_id, charger_type, client_id, hex(fingerprint), announced, t0_us, announced_us, \
-     CASE WHEN state IN ('announced', 'planned') THEN '' ELSE state END FROM departures WHERE charger_id <> 'N' ORDER BY 1",
+     CASE WHEN state IN ('announced', 'closed', 'planned', 'overdue', 'missed') THEN '' ELSE state END \
+     FROM departures WHERE charger_id <> 'N' ORDER BY 1",
     "SELECT p.id, departure_id, revision, status, solver, objective, bound, hex(envelope), hex(scenario), created_us \
      FROM plans p WHERE charger_id <> 'N' ORDER BY 1",
     "SELECT s.tour_id, position, request_id, sensor_id, x_m, y_m, arrive_us, depart_us, s.charge_j, outcome \
