@@ -292,10 +292,7 @@ async fn calls_beyond_the_limit_are_told_to_try_again() {
     let ask = |path: &str| routes.clone().oneshot(Request::get(path).body(Body::empty()).unwrap());
     // The first waits for its picture, and holds its place meanwhile.
     let pictures = edge.state.pictures.clone().acquire_many_owned(2).await.unwrap();
-    let departure = edge.bench.announce("c").await;
-    let batch = edge.bench.closed(departure).await;
-    edge.bench.store_plan(&batch, &[]).await.unwrap();
-    let plan = edge.good("/v1/plans").await.ids().remove(0);
+    let plan = edge.plan().await;
     let mut first = pin!(ask(&format!("/v1/plans/{plan}.svg")));
     let early = tokio::time::timeout(Duration::ZERO, &mut first).await;
     assert!(early.is_err(), "{early:?}");
