@@ -47,7 +47,7 @@ pub enum DepartureState {
 }
 
 /// A departure as it is stored.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Departure {
     /// Its id.
     pub id: DepartureId,

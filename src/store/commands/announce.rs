@@ -2,12 +2,15 @@
 
 use std::time::Duration;
 
-use super::remembered::same;
+use super::remembered::{Remembered, same};
 use crate::clock::{minus, plus};
 use crate::domain::{Announcement, Call, Departure, DepartureId, Fingerprint, Refusal, rules};
 use crate::store::cells::{Cells, text};
 use crate::store::read;
 use crate::store::writer::{Command, Failure, Writing};
+
+/// What a call is remembered as.
+pub(super) const ANNOUNCE: &str = "announce";
 
 /// A departure to announce.
 #[derive(Debug)]
@@ -31,7 +34,10 @@ impl Announce {
             "SELECT id, fingerprint FROM departures WHERE network_id = ? AND client_id = ?",
         );
         let row = row.bind(content.network_id.as_str()).bind(client_id.as_str());
-        let Some(row) = row.fetch_optional(&mut w.conn).await? else { return Ok(None) };
+        let Some(row) = row.fetch_optional(&mut w.conn).await? else {
+            let network = &content.network_id;
+            return Remembered::with(ANNOUNCE, network, client_id, fingerprint).find(w).await;
+        };
         let cells = Cells::new("departures", &row);
         same(cells.get("fingerprint")?, fingerprint, client_id)?;
         Ok(read::departure(&mut w.conn, cells.parsed("id")?).await?)

@@ -1,17 +1,25 @@
 //! Retention: deletes what has been over for long, a little at a time, so that nobody waits for it. What is open,
-//! batched or planned, and whatever a departure or a tour needs that is not over, is never touched.
+//! batched or planned, and whatever a departure or a tour needs that is not over, is never touched. The call that made
+//! what is deleted is remembered for a while: repeated, it makes nothing anew.
 
 use std::time::Duration;
 
 use jiff::Timestamp;
+use sqlx::sqlite::SqliteRow;
 
+use super::announce::ANNOUNCE;
+use super::remembered::Remembered;
+use super::submit::SUBMIT;
 use crate::clock::minus;
+use crate::domain::Fingerprint;
 use crate::store::StoreError;
+use crate::store::cells::Cells;
+use crate::store::rows::{self, departure_columns, request_columns};
 use crate::store::writer::{Command, Failure, Writing};
 
 /// Departures, requests and calls deleted at once, each.
 pub const PORTION: i64 = 100;
-/// Client ids are remembered so much longer than the history, at least.
+/// Client ids are remembered so much longer than what they made.
 const LONGER: Duration = Duration::from_secs(7 * 86_400);
 
 /// Deletes a portion of what ended before a time.
@@ -65,7 +73,8 @@ const REQUESTS: &str = "\
     AND NOT EXISTS (SELECT 1 FROM dead_sensors d WHERE d.network_id = r.network_id AND d.request_id = r.id) \
     ORDER BY r.updated_us LIMIT ?2";
 
-/// Calls whose work is gone: an ended tour or departure, a request, trajectories that later ones have replaced.
+/// Calls whose work is gone: an ended tour or departure, a request, trajectories that later ones have replaced. Those
+/// that made a request or a departure are here from its deletion on.
 /// What a `put` has made, a version of a network, is kept for good, and so is its id.
 const CALLS: &str = "\
     SELECT c.rowid FROM calls c WHERE c.created_us < ?1 AND CASE substr(c.scope, 1, instr(c.scope, ':')) \
@@ -74,7 +83,7 @@ const CALLS: &str = "\
     WHEN 'withdraw:' THEN NOT EXISTS (SELECT 1 FROM requests WHERE id = json_extract(c.answer, '$')) \
     WHEN 'trajectories:' THEN NOT EXISTS (SELECT 1 FROM trajectories t \
     WHERE t.network_id = substr(c.scope, 14) AND t.updated_us = c.created_us) \
-    ELSE 0 END ORDER BY c.created_us LIMIT ?2";
+    WHEN 'submit:' THEN 1 WHEN 'announce:' THEN 1 ELSE 0 END ORDER BY c.created_us LIMIT ?2";
 
 /// What hangs on departures, from the leaves to the root.
 const OF_DEPARTURES: [&str; 6] = [
@@ -92,16 +101,57 @@ impl Command for Forget {
     async fn apply(&self, w: &mut Writing) -> Result<Forgotten, Failure> {
         let calls = minus(self.before, LONGER);
         choose(w, DEPARTURES, self.before).await?;
+        self.remember_departures(w).await?;
         let mut departures = 0;
         for sql in OF_DEPARTURES {
             departures = sqlx::query(sql).execute(&mut w.conn).await?.rows_affected();
         }
         choose(w, REQUESTS, self.before).await?;
+        self.remember_requests(w).await?;
         let requests = delete(w, "DELETE FROM requests WHERE id IN (SELECT id FROM going)").await?;
         choose(w, CALLS, calls).await?;
         let calls = delete(w, "DELETE FROM calls WHERE rowid IN (SELECT id FROM going)").await?;
         Ok(Forgotten { departures, requests, calls })
     }
+}
+
+impl Forget {
+    async fn remember_requests(&self, w: &mut Writing) -> Result<(), StoreError> {
+        const SQL: &str = concat!(
+            "SELECT r.fingerprint, ",
+            request_columns!(),
+            " FROM requests r WHERE r.id IN (SELECT id FROM going)"
+        );
+        for row in sqlx::query(SQL).fetch_all(&mut w.conn).await? {
+            let request = rows::request(&row)?;
+            let network = &request.asked.network_id;
+            let fingerprint = fingerprint("requests", &row)?;
+            let call = Remembered::with(SUBMIT, network, &request.client_id, fingerprint);
+            call.keep_since(self.before, w, &request).await?;
+        }
+        Ok(())
+    }
+
+    async fn remember_departures(&self, w: &mut Writing) -> Result<(), StoreError> {
+        const SQL: &str = concat!(
+            "SELECT d.fingerprint, ",
+            departure_columns!(),
+            " FROM departures d WHERE d.id IN (SELECT id FROM going)"
+        );
+        for row in sqlx::query(SQL).fetch_all(&mut w.conn).await? {
+            let departure = rows::departure(&row)?;
+            let network = &departure.announced.network_id;
+            let fingerprint = fingerprint("departures", &row)?;
+            let call = Remembered::with(ANNOUNCE, network, &departure.client_id, fingerprint);
+            call.keep_since(self.before, w, &departure).await?;
+        }
+        Ok(())
+    }
+}
+
+fn fingerprint(table: &'static str, row: &SqliteRow) -> Result<Fingerprint, StoreError> {
+    let bytes: &[u8] = Cells::new(table, row).get("fingerprint")?;
+    Ok(Fingerprint(bytes.try_into().map_err(|error| StoreError::row(table, error))?))
 }
 
 /// Puts what is to go into a table of the connection's own.

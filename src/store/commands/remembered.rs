@@ -1,9 +1,11 @@
-//! The calls that make no row of their own, remembered by the id that their client gave them.
+//! The calls that make no row of their own, or whose row is deleted, remembered by the id that their client gave them.
 
+use jiff::Timestamp;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 use crate::domain::{Call, ClientId, Fingerprint, Refusal};
+use crate::store::StoreError;
 use crate::store::cells::{Cells, text};
 use crate::store::writer::{Failure, Writing};
 
@@ -42,11 +44,21 @@ impl<'a> Remembered<'a> {
 
     /// Keeps what the answer is made of.
     pub async fn keep(&self, w: &mut Writing, answer: &impl Serialize) -> Result<(), Failure> {
+        Ok(self.keep_since(w.now, w, answer).await?)
+    }
+
+    /// Keeps it as if the call had come at another time: it is forgotten so much sooner or later.
+    pub async fn keep_since(
+        &self,
+        time: Timestamp,
+        w: &mut Writing,
+        answer: &impl Serialize,
+    ) -> Result<(), StoreError> {
         const SQL: &str = "INSERT INTO calls (scope, client_id, fingerprint, answer, created_us) \
                            VALUES (?, ?, ?, ?, ?)";
-        let now_us = w.now_us();
+        let time_us = time.as_microsecond();
         let insert = sqlx::query(SQL).bind(&self.scope).bind(self.client_id.as_str());
-        let insert = insert.bind(&self.fingerprint.0[..]).bind(text(answer)).bind(now_us);
+        let insert = insert.bind(&self.fingerprint.0[..]).bind(text(answer)).bind(time_us);
         insert.execute(&mut w.conn).await?;
         Ok(())
     }

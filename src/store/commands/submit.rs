@@ -3,13 +3,16 @@
 
 use sqlx::Row;
 
-use super::remembered::same;
+use super::remembered::{Remembered, same};
 use crate::clock::whole;
 use crate::domain::{Call, Fingerprint, NewRequest, Request, RequestId, RequestState, rules};
 use crate::store::StoreError;
 use crate::store::cells::{micros, text};
 use crate::store::rows::{self, request_columns};
 use crate::store::writer::{Command, Failure, Writing};
+
+/// What a call is remembered as.
+pub(super) const SUBMIT: &str = "submit";
 
 /// A request to store.
 #[derive(Debug)]
@@ -34,9 +37,15 @@ impl Submit {
         let client_id = &self.call.client_id;
         let row = sqlx::query(SQL).bind(self.call.content.network_id.as_str());
         let row = row.bind(client_id.as_str()).fetch_optional(&mut w.conn).await?;
-        let Some(row) = row else { return Ok(None) };
+        let Some(row) = row else { return self.forgotten().find(w).await };
         same(row.try_get("fingerprint")?, self.fingerprint, client_id)?;
         Ok(Some(rows::request(&row)?))
+    }
+
+    /// The call as it is remembered once its request is deleted.
+    fn forgotten(&self) -> Remembered<'_> {
+        let Call { client_id, content } = &self.call;
+        Remembered::with(SUBMIT, &content.network_id, client_id, self.fingerprint)
     }
 
     /// Stores it unless something stands in its way; whether it did.
@@ -48,7 +57,8 @@ impl Submit {
             "INSERT INTO requests (id, network_id, sensor_id, client_id, fingerprint, state, place, \
              deadline_us, ready_us, residual_j, measured_us, drain_w, reward, required, \
              received_us, updated_us, change) \
-             VALUES (?, ?, ?, ?, ?, 'open', ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?) \
+             SELECT ?1, ?2, ?3, ?4, ?5, 'open', ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14, ?15, ?16 \
+             WHERE NOT EXISTS (SELECT 1 FROM calls WHERE scope = 'submit:' || ?2 AND client_id = ?4) \
              ON CONFLICT DO NOTHING",
         )
         .bind(request.id.to_string())
@@ -79,7 +89,8 @@ impl Submit {
         let done = sqlx::query(
             "UPDATE requests SET state = 'superseded', updated_us = ?1, change = ?2 \
              WHERE network_id = ?3 AND sensor_id = ?4 AND state = 'open' AND NOT EXISTS \
-             (SELECT 1 FROM requests c WHERE c.network_id = ?3 AND c.client_id = ?5)",
+             (SELECT 1 FROM requests c WHERE c.network_id = ?3 AND c.client_id = ?5) AND NOT EXISTS \
+             (SELECT 1 FROM calls WHERE scope = 'submit:' || ?3 AND client_id = ?5)",
         )
         .bind(now_us)
         .bind(change)

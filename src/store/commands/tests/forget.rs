@@ -2,15 +2,19 @@
 
 use std::time::Duration;
 
+use jiff::Timestamp;
 use proptest::prelude::*;
 
-use crate::clock::{Clock, minus};
-use crate::domain::{DepartureId, NewRequest, Outcome, Request, RequestId, TourId};
-use crate::store::fixture::{Bench, asks};
+use crate::clock::{Clock, minus, plus};
+use crate::domain::{
+    Announcement, DepartureId, DepartureState, NewRequest, Outcome, Refusal, Request, RequestId,
+    RequestState, TourId,
+};
+use crate::store::fixture::{Bench, asks, leaves};
 use crate::store::{Closing, DepartureFilter, Forget, Page, RequestFilter, Storing};
 
 const DAY: Duration = Duration::from_secs(86_400);
-const HISTORY: Duration = Duration::from_secs(7 * 86_400);
+const WEEK: Duration = Duration::from_secs(7 * 86_400);
 
 #[derive(Clone, Debug)]
 enum Event {
@@ -35,10 +39,34 @@ fn event() -> impl Strategy<Value = Event> {
     ]
 }
 
+/// What a call has made.
+struct Made<C, I> {
+    client_id: String,
+    content: C,
+    id: I,
+    /// Up to what it was deleted with.
+    gone: Option<Timestamp>,
+}
+
+impl<C, I> Made<C, I> {
+    fn by(client_id: String, content: C, id: I) -> Self {
+        Self { client_id, content, id, gone: None }
+    }
+
+    /// Whether its call must be remembered, now that what ended before a time is deleted.
+    fn is_remembered(&mut self, is_there: bool, before: Timestamp) -> bool {
+        if is_there {
+            return true;
+        }
+        let gone = *self.gone.get_or_insert(before);
+        before <= plus(gone, WEEK)
+    }
+}
+
 #[derive(Default)]
 struct Story {
-    submitted: Vec<(String, NewRequest, RequestId)>,
-    departures: Vec<DepartureId>,
+    submitted: Vec<Made<NewRequest, RequestId>>,
+    announced: Vec<Made<Announcement, DepartureId>>,
     out: Vec<TourId>,
 }
 
@@ -48,10 +76,10 @@ impl Story {
             Event::Submit(sensor) => {
                 let (id, asked) = (bench.fresh(), asks(&format!("s{sensor}")));
                 let request = bench.try_submit(&id, asked.clone()).await.unwrap();
-                self.submitted.push((id, asked, request.id));
+                self.submitted.push(Made::by(id, asked, request.id));
             }
             Event::Withdraw => {
-                if let Some((_, _, id)) = self.submitted.last() {
+                if let Some(Made { id, .. }) = self.submitted.last() {
                     // It may be over, or deleted.
                     let _ = bench.withdraw(*id).await;
                 }
@@ -74,8 +102,9 @@ impl Story {
     }
 
     async fn depart(&mut self, bench: &Bench, charger: u8, stops: usize) {
-        let id = bench.announce(&format!("c{charger}")).await;
-        self.departures.push(id);
+        let (call, leaves) = (bench.fresh(), leaves(&format!("c{charger}"), None));
+        let id = bench.try_announce(&call, leaves.clone()).await.unwrap().id;
+        self.announced.push(Made::by(call, leaves, id));
         let batch = match bench.close(id).await {
             Closing::Closed(batch) => batch,
             Closing::ChargerOut => {
@@ -93,9 +122,9 @@ impl Story {
     }
 
     /// Nothing that is not over is touched, nor anything that ended within the history.
-    async fn forget(&self, bench: &Bench) {
+    async fn forget(&mut self, bench: &Bench) {
         let net = "net".parse().unwrap();
-        let before = minus(bench.clock.now(), HISTORY);
+        let before = minus(bench.clock.now(), WEEK);
         let reads = &bench.store.reads;
         let (requests, departures, tours) = (
             reads.live_requests(&net).await.unwrap().0,
@@ -115,10 +144,19 @@ impl Story {
         }
         let orphans = sqlx::query("PRAGMA foreign_key_check").fetch_all(reads.pool()).await;
         assert!(orphans.unwrap().is_empty());
-        // A call that is repeated gets its answer for as long as what it made is there.
-        for (call, asked, id) in &self.submitted {
-            if left.iter().any(|request| request.id == *id) {
-                assert_eq!(bench.try_submit(call, asked.clone()).await.unwrap().id, *id);
+        // A call that is repeated gets its answer for as long as what it made is there, and a week longer.
+        for made in &mut self.submitted {
+            let is_there = left.iter().any(|request| request.id == made.id);
+            if made.is_remembered(is_there, before) {
+                let again = bench.try_submit(&made.client_id, made.content.clone()).await.unwrap();
+                assert_eq!(again.id, made.id);
+            }
+        }
+        for made in &mut self.announced {
+            let is_there = reads.departure(made.id).await.unwrap().is_some();
+            if made.is_remembered(is_there, before) {
+                let again = bench.try_announce(&made.client_id, made.content.clone()).await;
+                assert_eq!(again.unwrap().id, made.id);
             }
         }
         assert_eq!(*bench.store.writer.changes().borrow(), last, "a repeated call stores nothing");
@@ -166,7 +204,7 @@ async fn what_is_over_goes_with_all_that_hangs_on_it_and_pages_go_on() {
     let departures = DepartureFilter::default();
     let first = bench.store.reads.departures(&departures, &page).await.unwrap();
     bench.clock.advance(20 * DAY);
-    let forget = Forget { before: minus(bench.clock.now(), HISTORY) };
+    let forget = Forget { before: minus(bench.clock.now(), WEEK) };
     let gone = bench.store.writer.call(forget).await.unwrap();
     assert_eq!((gone.departures, gone.requests, gone.calls), (2, 2, 2), "the last of all stays");
     let again = bench.store.writer.call(forget).await.unwrap();
@@ -179,7 +217,43 @@ async fn what_is_over_goes_with_all_that_hangs_on_it_and_pages_go_on() {
     for table in ["plans", "tours", "stops", "visits", "calls"] {
         let sql = sqlx::AssertSqlSafe(format!("SELECT count(*) FROM {table} WHERE 1 = 1"));
         let left: i64 = sqlx::query_scalar(sql).fetch_one(bench.store.reads.pool()).await.unwrap();
-        // The call that put the network, and that which completed the last tour.
-        assert_eq!(left, if table == "calls" { 2 } else { 1 }, "{table}");
+        // The call that put the network, that which completed the last tour, and those that made what is deleted.
+        assert_eq!(left, if table == "calls" { 6 } else { 1 }, "{table}");
     }
+}
+
+#[tokio::test]
+async fn a_call_is_remembered_a_week_longer_than_what_it_made() {
+    let bench = Bench::new().await;
+    let first = bench.try_submit("x", asks("s1")).await.unwrap();
+    let superseding = bench.submit("s1").await;
+    let departure = bench.try_announce("y", leaves("c", None)).await.unwrap();
+    bench.cancel(departure.id).await.unwrap();
+    bench.cancel(bench.announce("c").await).await.unwrap();
+    bench.submit("s2").await;
+    bench.clock.advance(30 * DAY);
+    let forget = Forget { before: minus(bench.clock.now(), WEEK) };
+    let gone = bench.store.writer.call(forget).await.unwrap();
+    assert_eq!((gone.departures, gone.requests), (1, 1));
+    let last = *bench.store.writer.changes().borrow();
+
+    let again = bench.try_submit("x", asks("s1")).await.unwrap();
+    assert_eq!((again.id, again.state), (first.id, RequestState::Superseded), "as it ended");
+    assert_eq!(bench.state(superseding.id).await, RequestState::Open, "nothing newer came");
+    let again = bench.try_announce("y", leaves("c", None)).await.unwrap();
+    assert_eq!((again.id, again.state), (departure.id, DepartureState::Cancelled));
+    for other in [
+        bench.try_submit("x", asks("s2")).await.map(|_| ()),
+        bench.try_announce("y", leaves("d", None)).await.map(|_| ()),
+    ] {
+        assert!(matches!(other, Err(Refusal::AlreadyExists { .. })), "{other:?}");
+    }
+    let week = Forget { before: plus(forget.before, WEEK) };
+    bench.store.writer.call(week).await.unwrap();
+    assert_eq!(bench.try_submit("x", asks("s1")).await.unwrap().id, first.id);
+    assert_eq!(*bench.store.writer.changes().borrow(), last, "nothing was stored");
+
+    let later = Forget { before: plus(week.before, Duration::from_secs(1)) };
+    assert_eq!(bench.store.writer.call(later).await.unwrap().calls, 2);
+    assert_ne!(bench.try_submit("x", asks("s1")).await.unwrap().id, first.id);
 }
