@@ -20,6 +20,7 @@ use crate::proto::network_service_server::NetworkServiceServer;
 use crate::proto::request_service_server::RequestServiceServer;
 use crate::proto::tour_service_server::TourServiceServer;
 use crate::store::Trouble;
+use crate::telemetry::of_caller;
 
 /// Bytes of a call's headers.
 const HEADER_BYTES: u32 = 16 * 1024;
@@ -88,7 +89,8 @@ impl Server {
         tonic::transport::Server::builder()
             .trace_fn(|call| {
                 let path = call.uri().path();
-                tracing::debug_span!("grpc", otel.name = path, path, departure = Empty)
+                let span = tracing::debug_span!("grpc", otel.name = path, path, departure = Empty);
+                of_caller(span, call.headers())
             })
             .timeout(limits.longest_wait + CALL_SLACK)
             .max_concurrent_streams(limits.calls)

@@ -19,6 +19,7 @@ use tower_http::timeout::TimeoutLayer;
 use tower_http::trace::TraceLayer;
 
 use super::problem::{MEDIA_TYPE, Problem};
+use crate::telemetry::of_caller;
 
 /// No answer takes longer to begin.
 const LONGEST: Duration = Duration::from_secs(30);
@@ -27,7 +28,7 @@ const LONGEST: Duration = Duration::from_secs(30);
 pub(super) fn dress(routes: Router) -> Router {
     let span = |request: &Request| {
         let (method, path) = (request.method(), request.uri().path());
-        tracing::info_span!("rest", %method, path)
+        of_caller(tracing::info_span!("rest", %method, path), request.headers())
     };
     // A handler has logged its own failure already, so that the trace does not log it again.
     let trace = TraceLayer::new_for_http().make_span_with(span).on_failure(());

@@ -15,8 +15,8 @@ use tokio::net::TcpListener;
 use tokio_stream::wrappers::TcpListenerStream;
 use tonic::{Request, Response, Status};
 
-use crate::app::{Settings, TestApp};
-use crate::field::line;
+use crate::app::{PATIENCE, Settings, TestApp};
+use crate::field::{line, request};
 
 /// A collector that keeps what it gets.
 #[derive(Clone, Default)]
@@ -109,6 +109,38 @@ async fn a_departure_is_followed_by_its_id_from_the_call_to_the_commit() {
     assert_eq!(transaction.name, "transaction");
     let ours = |span: &Span| span.start_time_unix_nano <= span.end_time_unix_nano;
     assert!(spans.iter().all(ours));
+}
+
+#[tokio::test]
+async fn a_call_is_a_part_of_its_callers_trace() {
+    const TRACE: [u8; 16] = [0xab; 16];
+    let (collector, address) = Collector::start().await;
+    let mut app = TestApp::with(configured(&address)).await;
+    app.put(line(1)).await;
+    let mut submit = Request::new(request("s1"));
+    let within =
+        |span: u8| format!("00-{}-{}-01", "ab".repeat(16), format!("{span:02x}").repeat(8));
+    submit.metadata_mut().insert("traceparent", within(1).parse().unwrap());
+    app.requests().submit(submit).await.unwrap();
+    let client = reqwest::Client::builder().timeout(PATIENCE).build().unwrap();
+    let get = |parent: String| {
+        client.get(format!("{}/v1/networks", app.rest)).header("traceparent", parent).send()
+    };
+    assert_eq!(get(within(2)).await.unwrap().status(), 200);
+    assert_eq!(get("00-nonsense-01".into()).await.unwrap().status(), 200);
+    assert_eq!(app.sigterm().await.code(), Some(0));
+    let spans = collector.0.lock().unwrap().clone();
+    for (parent, name) in [(1, "/voltour.v1.RequestService/Submit"), (2, "rest")] {
+        let called: Vec<&Span> =
+            spans.iter().filter(|span| span.parent_span_id == [parent; 8]).collect();
+        assert_eq!(called.iter().map(|span| span.name.as_str()).collect::<Vec<_>>(), [name]);
+        assert_eq!(called[0].trace_id, TRACE);
+        let all = below(&spans, called[0]);
+        assert!(all.iter().all(|span| span.trace_id == TRACE));
+        assert_eq!(all.iter().any(|span| span.name == "Submit"), parent == 1, "{all:#?}");
+    }
+    let alone = |span: &&Span| span.name == "rest" && span.trace_id != TRACE;
+    assert_eq!(spans.iter().filter(alone).count(), 1, "nonsense names no trace");
 }
 
 #[tokio::test]
