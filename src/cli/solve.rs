@@ -115,7 +115,7 @@ impl Planning {
         let clock = SystemClock;
         let limited = policy
             .as_ref()
-            .map(|policy| Limited::new(&*policy.function, &clock, limits.policy_share()));
+            .map(|policy| Limited::new(&*policy.function, &clock, limits.policy_share(solver)));
         let policy = limited.as_ref().map(|policy| policy as &dyn QFunction);
         let solved = limits.within(|stop| {
             let options = Options { solver, seed, stop, policy };
@@ -165,9 +165,10 @@ impl Limits {
         Self { time: self.time.map(|time| time / of), ..self }
     }
 
-    /// The part of the time that the values of a policy may take: half of it.
-    fn policy_share(self) -> Duration {
-        self.time.map_or(Duration::MAX, |time| time / 2)
+    /// The part of the time that what a policy does may take: half of it where others come after it.
+    fn policy_share(self, solver: SolverName) -> Duration {
+        let parts = if solver == SolverName::Dqn { 1 } else { 2 };
+        self.time.map_or(Duration::MAX, |time| time / parts)
     }
 
     /// What is left after some time.

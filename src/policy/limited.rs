@@ -1,43 +1,44 @@
 //! [`Limited`]: a Q-function that may take only so much time.
 
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::OnceLock;
 use std::time::Duration;
 
 use voltour_solver::policy::{Batch, QError, QFunction};
 
 use crate::clock::Clock;
 
-/// A Q-function within a share of the time of one solve. Counted is what its calls take, by the caller's
-/// clock; past the share there are no values any more.
+/// A Q-function within a share of the time of one solve. Counted is all that passes from its first use on, what its
+/// caller does to ask it too; past the share there are no values any more.
 pub struct Limited<'a> {
     function: &'a dyn QFunction,
     clock: &'a dyn Clock,
     share: Duration,
-    /// Microseconds.
-    spent: AtomicU64,
+    /// How long the clock had run at the first use.
+    since: OnceLock<Duration>,
 }
 
 impl<'a> Limited<'a> {
     /// So much for all calls together.
     pub fn new(function: &'a dyn QFunction, clock: &'a dyn Clock, share: Duration) -> Self {
-        Self { function, clock, share, spent: AtomicU64::new(0) }
-    }
-
-    fn is_over(&self) -> bool {
-        Duration::from_micros(self.spent.load(Ordering::Relaxed)) > self.share
+        Self { function, clock, share, since: OnceLock::new() }
     }
 }
 
 impl QFunction for Limited<'_> {
     fn values(&self, batch: &Batch) -> Result<Vec<f32>, QError> {
-        if self.is_over() {
+        if !self.has_time() {
             return Err(QError::TooSlow);
         }
-        let from = self.clock.now();
         let values = self.function.values(batch);
-        // A clock that was set back has measured nothing.
-        let took = self.clock.now().as_microsecond().saturating_sub(from.as_microsecond());
-        self.spent.fetch_add(took.max(0).unsigned_abs(), Ordering::Relaxed);
-        if self.is_over() { Err(QError::TooSlow) } else { values }
+        if self.has_time() { values } else { Err(QError::TooSlow) }
+    }
+
+    fn reads_ahead(&self) -> bool {
+        self.function.reads_ahead()
+    }
+
+    fn has_time(&self) -> bool {
+        let ran = self.clock.ran();
+        ran.saturating_sub(*self.since.get_or_init(|| ran)) <= self.share
     }
 }

@@ -25,10 +25,14 @@ fn a_share_of_the_time_is_for_all_calls_together() {
     let clock = Arc::new(ManualClock::new(Timestamp::UNIX_EPOCH));
     let slow = Slow(clock.clone());
     let limited = Limited::new(&slow, &*clock, Duration::from_secs(3));
-    assert!(limited.values(&batch(2, 1)).is_ok());
-    // What passes between the calls does not count.
+    // What passes before it is used does not count.
     clock.advance(Duration::from_secs(60));
     assert!(limited.values(&batch(1, 1)).is_ok());
+    // What its caller does meanwhile does, and no change of the time of day.
+    clock.advance(Duration::from_secs(1));
+    clock.set(Timestamp::UNIX_EPOCH);
+    assert!(limited.values(&batch(1, 1)).is_ok() && limited.has_time());
     assert_eq!(limited.values(&batch(1, 1)), Err(QError::TooSlow));
+    assert!(!limited.has_time());
     assert_eq!(limited.values(&batch(1, 1)), Err(QError::TooSlow), "and it is not asked again");
 }

@@ -17,6 +17,12 @@ pub trait QFunction: Send + Sync {
     fn reads_ahead(&self) -> bool {
         true
     }
+
+    /// Whether it may be asked further. It is asked before each state is encoded, which takes longer than its values
+    /// where there are many candidates; one that may not answers [`QError::TooSlow`].
+    fn has_time(&self) -> bool {
+        true
+    }
 }
 
 /// A Q-function cannot answer.

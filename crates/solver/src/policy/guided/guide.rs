@@ -49,8 +49,10 @@ impl<'a> Guide<'a> {
         if episodes.is_empty() {
             return Ok(Vec::new());
         }
-        let encodings: Vec<Encoding> =
-            episodes.iter().map(|episode| self.encoder.encode(episode)).collect();
+        let encode = |episode: &&Episode<'a>| {
+            if self.q.has_time() { Ok(self.encoder.encode(episode)) } else { Err(QError::TooSlow) }
+        };
+        let encodings: Vec<Encoding> = episodes.iter().map(encode).collect::<Result<_, _>>()?;
         let batch = Batch::pack(&encodings);
         let q = self.q.values(&batch)?;
         let expected = batch.states * batch.rows;

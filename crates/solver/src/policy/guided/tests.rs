@@ -1,3 +1,5 @@
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use rand_pcg::Pcg64Mcg;
 use rand_pcg::rand_core::SeedableRng;
 
@@ -5,7 +7,7 @@ use super::{Effort, Guide, Kept, Rule};
 use crate::framework::definition;
 use crate::framework::tests::drawn;
 use crate::instance::Instance;
-use crate::policy::Problem;
+use crate::policy::{Batch, Problem, QError, QFunction};
 use crate::scenario::{Document, Scenario};
 use crate::solvers::Budget;
 use crate::stop::MaxIterations;
@@ -97,4 +99,40 @@ fn the_whole_effort_is_at_most_32_roll_outs() {
         let (_, roll_outs) = best(document, Effort::whole(problem));
         assert!((2..=32).contains(&roll_outs), "{roll_outs}");
     }
+}
+
+/// A function that may be asked for so many states.
+struct Hurried(Rule, AtomicUsize);
+
+impl QFunction for Hurried {
+    fn values(&self, batch: &Batch) -> Result<Vec<f32>, QError> {
+        self.0.values(batch)
+    }
+
+    fn has_time(&self) -> bool {
+        let left = |left: usize| left.checked_sub(1);
+        self.1.fetch_update(Ordering::Relaxed, Ordering::Relaxed, left).is_ok()
+    }
+}
+
+#[test]
+fn a_function_without_time_is_left_within_a_step() {
+    let [document, ..] = drawn(2);
+    let scenario = Scenario::from_document(&document).unwrap();
+    let instance = Instance::new(&scenario);
+    let problem = Problem::of(scenario.objective);
+    let asked = guided(&document, |guide| {
+        guide.beam(3).unwrap();
+        guide.valued()
+    });
+    let beam = |states: usize| {
+        let hurried = Hurried(Rule(problem), AtomicUsize::new(states));
+        let guide = Guide::new(&instance, definition(problem), &hurried);
+        guide.beam(3).map(|ends| ends.len()).map_err(|error| (error, guide.valued()))
+    };
+    let enough = usize::try_from(asked).unwrap();
+    assert!(enough > 3 && beam(enough).is_ok());
+    let (error, valued) = beam(enough - 1).unwrap_err();
+    assert_eq!(error, QError::TooSlow);
+    assert!(valued < asked, "the last step is not begun");
 }
