@@ -31,13 +31,14 @@ impl From<Refusal> for Status {
             Refusal::NotFound { what, id } => {
                 details.set_resource_info(*what, id, "", "");
             }
-            Refusal::Unavailable(_) => drop(details.set_retry_info(Some(RETRY))),
             Refusal::ResourceExhausted { limit, reason } => {
-                details.set_retry_info(Some(RETRY));
                 details.add_quota_failure_violation(*limit, reason);
             }
             Refusal::Internal(message) => tracing::error!(%message, "a call failed"),
             _ => {}
+        }
+        if let Some(after) = retry_after(&refusal) {
+            details.set_retry_info(Some(after));
         }
         Self::with_error_details(code, refusal.to_string(), details)
     }
@@ -46,16 +47,30 @@ impl From<Refusal> for Status {
 impl From<Refusal> for proto::Refusal {
     fn from(refusal: Refusal) -> Self {
         let code = code(&refusal).into();
+        let retry_after = retry_after(&refusal).and_then(|after| after.try_into().ok());
         match &refusal {
             Refusal::Invalid(violations) => {
                 let (kept, message) = cut(violations);
                 let field_violations = kept
                     .into_iter()
                     .map(|v| proto::FieldViolation { field: v.field, description: v.description });
-                Self { code, message, field_violations: field_violations.collect() }
+                Self { code, message, field_violations: field_violations.collect(), retry_after }
             }
-            _ => Self { code, message: refusal.to_string(), field_violations: Vec::new() },
+            _ => Self {
+                code,
+                message: refusal.to_string(),
+                field_violations: Vec::new(),
+                retry_after,
+            },
         }
+    }
+}
+
+/// When what was refused may come again unchanged.
+fn retry_after(refusal: &Refusal) -> Option<Duration> {
+    match refusal {
+        Refusal::Unavailable(_) | Refusal::ResourceExhausted { .. } => Some(RETRY),
+        _ => None,
     }
 }
 
@@ -165,5 +180,11 @@ mod tests {
         assert_eq!(Status::from(refusal()).code(), Code::NotFound);
         let bad = proto::Refusal::from(Refusal::invalid("reward", "-1 must be at least 0"));
         assert_eq!((bad.code, bad.field_violations[0].field.as_str()), (3, "reward"));
+        assert_eq!(bad.retry_after, None);
+        let full = || Refusal::exhausted("limits.queue", "the writer has its hands full");
+        let advice = Status::from(full()).get_details_retry_info().unwrap().retry_delay;
+        assert_eq!(advice, Some(RETRY));
+        let item = proto::Refusal::from(full()).retry_after.unwrap();
+        assert_eq!(Duration::try_from(item), Ok(RETRY));
     }
 }
