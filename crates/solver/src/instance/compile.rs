@@ -210,7 +210,7 @@ impl<'a> Instance<'a> {
     }
 
     /// Goes on to candidate `to` and charges it; its deadline is not looked at.
-    #[inline]
+    #[inline(always)]
     pub fn step(&self, run: &Run, to: u32) -> Run {
         let speed = self.scenario.charger.speed_mps;
         let candidate = &self.candidates[to as usize];
@@ -231,6 +231,7 @@ impl<'a> Instance<'a> {
         }
     }
 
+    #[inline(never)]
     fn meet(&self, run: &Run, candidate: &Candidate) -> (f64, f64, crate::scenario::Point) {
         let speed = self.scenario.charger.speed_mps;
         let sensor = self.scenario.requests[candidate.request].sensor;

@@ -158,8 +158,8 @@ impl<'a, 'b> Search<'a, 'b> {
                         improved = budget.iterations();
                     }
                 }
-                if current.missing(&self.instance) > 0 || i % 64 == 0 {
-                    self.cost.adapt(&self.instance, &current);
+                if current.missing() > 0 || i % 64 == 0 {
+                    self.cost.adapt(&current);
                     current_cost = self.cost.of(&self.instance, &current);
                 }
                 if !budget.spend() {
@@ -186,10 +186,7 @@ impl<'a, 'b> Search<'a, 'b> {
         trial.remove(&self.instance, |c| leaves[c as usize]);
         let mut pool = self.pool(&removed);
         recreate(&self.instance, trial, &mut pool, &self.cost, &mut self.near, self.rng);
-        if !self.instance.untimed
-            && trial.missing(&self.instance) > 0
-            && self.rng.random_bool(REPAIR)
-        {
+        if !self.instance.untimed && trial.missing() > 0 && self.rng.random_bool(REPAIR) {
             self.repair(trial);
         }
         if self.instance.scenario.objective == Objective::MinDistance {
@@ -242,24 +239,29 @@ impl<'a, 'b> Search<'a, 'b> {
         let instance = &self.instance;
         let stops = trial.tour.len();
         let offset = if stops == 0 { 0 } else { self.rng.random_range(0..stops) };
+        if instance.metric {
+            trial.remove_spare(instance, offset);
+            return;
+        }
         let order: Vec<u32> = trial.tour.order().to_vec();
         for i in 0..stops {
             let candidate = order[(i + offset) % stops];
-            if !trial.is_needed(instance, candidate) {
-                let length = trial.tour.finished().distance_m;
-                let position = trial.tour.position(candidate);
-                trial.remove(instance, |c| c == candidate);
-                let worse = trial.tour.finished().distance_m > length || !trial.tour.is_legal();
-                if let Some(position) = position.filter(|_| worse) {
-                    trial.insert(instance, position, candidate);
-                }
+            if trial.is_needed(instance, candidate) {
+                continue;
+            }
+            let length = trial.tour.finished().distance_m;
+            let position = trial.tour.position(candidate);
+            trial.remove(instance, |c| c == candidate);
+            let worse = trial.tour.finished().distance_m > length || !trial.tour.is_legal();
+            if let Some(position) = position.filter(|_| worse) {
+                trial.insert(instance, position, candidate);
             }
         }
     }
 
     /// Keeps a tour that is better than the best.
     fn keep(&mut self, current: &Partial) -> bool {
-        let missing = if current.missing(&self.instance) == 0 {
+        let missing = if current.missing() == 0 {
             (0, 0)
         } else if self.best_value.is_feasible() {
             return false;
