@@ -15,10 +15,13 @@ use crate::solvers::{Budget, SolverName, enumerate, greedy, shortcut};
 use crate::tour::Value;
 
 /// Temperature at the beginning and the end of an annealing run, in scales of the cost.
-const HEAT_OF_DISTANCE: (f64, f64) = (1.5, 0.01);
+///
+/// Which stops a tour has is decided while it is warm: distances below a twentieth of a scale seldom tell two
+/// sets of stops apart, and iterations colder than that only mend the order of one of them.
+const HEAT_OF_DISTANCE: (f64, f64) = (1.5, 0.05);
 const HEAT_OF_GAIN: (f64, f64) = (10.0, 0.05);
-/// Tours with more stops are annealed from a lower temperature, in proportion: an iteration changes a
-/// smaller share of them.
+/// Tours with more stops are annealed from a lower temperature, in proportion, and where distance is the cost to
+/// a lower one: an iteration changes a smaller share of them.
 const MANY_STOPS: f64 = 60.0;
 /// Iterations of the first annealing run: so many a stop, within bounds.
 const RUN_PER_STOP: u64 = 50;
@@ -124,12 +127,12 @@ impl<'a, 'b> Search<'a, 'b> {
         if self.useful.is_empty() || budget.is_spent() {
             return;
         }
-        let (hot, cold) = match self.instance.scenario.objective {
-            Objective::MinDistance => HEAT_OF_DISTANCE,
-            Objective::MaxReward | Objective::MaxCount => HEAT_OF_GAIN,
-        };
         let stops = self.best.tour.len();
-        let hot = hot * (MANY_STOPS / stops.max(1) as f64).min(1.0);
+        let few = (MANY_STOPS / stops.max(1) as f64).min(1.0);
+        let (hot, cold) = match self.instance.scenario.objective {
+            Objective::MinDistance => (HEAT_OF_DISTANCE.0 * few, HEAT_OF_DISTANCE.1 * few),
+            Objective::MaxReward | Objective::MaxCount => (HEAT_OF_GAIN.0 * few, HEAT_OF_GAIN.1),
+        };
         let mut length = (RUN_PER_STOP * stops as u64).clamp(FIRST_RUN, LONGEST_FIRST_RUN);
         let mut improved = budget.iterations();
         for run in 1.. {
