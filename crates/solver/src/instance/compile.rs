@@ -210,6 +210,8 @@ impl<'a> Instance<'a> {
     }
 
     /// Goes on to candidate `to` and charges it; its deadline is not looked at.
+    // Every search spends its time in loops over this, and where nothing moves a call costs as much as the step:
+    // it is compiled into them, and the chase of a moving sensor is left outside.
     #[inline(always)]
     pub fn step(&self, run: &Run, to: u32) -> Run {
         let speed = self.scenario.charger.speed_mps;
