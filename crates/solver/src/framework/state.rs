@@ -61,12 +61,12 @@ impl<'a> State<'a> {
 
     /// How many members demand `d` still lacks.
     pub fn lacks(&self, d: usize) -> u32 {
-        self.partial.lacks(self.instance, d)
+        self.partial.lacks(d)
     }
 
     /// How many members all demands lack together.
     pub fn missing(&self) -> u32 {
-        self.partial.missing(self.instance)
+        self.partial.missing()
     }
 
     /// Puts a candidate before the stop at `position`.

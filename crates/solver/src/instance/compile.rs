@@ -210,7 +210,9 @@ impl<'a> Instance<'a> {
     }
 
     /// Goes on to candidate `to` and charges it; its deadline is not looked at.
-    #[inline]
+    // Every search spends its time in loops over this, and where nothing moves a call costs as much as the step:
+    // it is compiled into them, and the chase of a moving sensor is left outside.
+    #[inline(always)]
     pub fn step(&self, run: &Run, to: u32) -> Run {
         let speed = self.scenario.charger.speed_mps;
         let candidate = &self.candidates[to as usize];
@@ -231,6 +233,7 @@ impl<'a> Instance<'a> {
         }
     }
 
+    #[inline(never)]
     fn meet(&self, run: &Run, candidate: &Candidate) -> (f64, f64, crate::scenario::Point) {
         let speed = self.scenario.charger.speed_mps;
         let sensor = self.scenario.requests[candidate.request].sensor;

@@ -48,7 +48,7 @@ pub(super) fn append(
     let mut open = Vec::new();
     let mut here = instance.departure();
     let rewarded = instance.scenario.objective != Objective::MinDistance;
-    while rewarded || partial.missing(instance) > 0 {
+    while rewarded || partial.missing() > 0 {
         open.clear();
         for candidate in 0..instance.len() as u32 {
             let helps = rewarded || literal || partial.relief(instance, candidate, &weight) > 0.0;

@@ -129,7 +129,7 @@ fn must(instance: &Instance<'_>, partial: &Partial, places: &[Place]) -> Vec<boo
     for place in legal() {
         let of = &instance.demands.of[place.candidate as usize];
         must[place.candidate as usize] = of.iter().any(|&d| {
-            let lacks = partial.lacks(instance, d as usize);
+            let lacks = partial.lacks(d as usize);
             lacks > 0 && available[d as usize] <= lacks
         });
     }

@@ -9,18 +9,18 @@ use crate::tour::Tour;
 pub struct Partial {
     /// The tour.
     pub tour: Tour,
-    /// By demand, its members that are served.
-    has: Vec<u32>,
+    /// By demand, what it lacks; below zero, what it could do without.
+    open: Vec<i32>,
 }
 
 impl Clone for Partial {
     fn clone(&self) -> Self {
-        Self { tour: self.tour.clone(), has: self.has.clone() }
+        Self { tour: self.tour.clone(), open: self.open.clone() }
     }
 
     fn clone_from(&mut self, source: &Self) {
         self.tour.clone_from(&source.tour);
-        self.has.clone_from(&source.has);
+        self.open.clone_from(&source.open);
     }
 }
 
@@ -28,7 +28,8 @@ impl Partial {
     /// The tour with these stops.
     pub fn new(instance: &Instance<'_>, order: &[u32]) -> Self {
         let tour = Tour::new(instance, order);
-        let mut partial = Self { tour, has: vec![0; instance.demands.demands.len()] };
+        let open = instance.demands.demands.iter().map(|d| d.needs as i32).collect();
+        let mut partial = Self { tour, open };
         for &candidate in order {
             partial.count(instance, candidate, true);
         }
@@ -37,8 +38,7 @@ impl Partial {
 
     fn count(&mut self, instance: &Instance<'_>, candidate: u32, served: bool) {
         for &d in &instance.demands.of[candidate as usize] {
-            let has = &mut self.has[d as usize];
-            *has = if served { *has + 1 } else { *has - 1 };
+            self.open[d as usize] += if served { -1 } else { 1 };
         }
     }
 
@@ -59,33 +59,47 @@ impl Partial {
         self.tour.remove(instance, leaves);
     }
 
+    /// Takes out every stop that no demand needs, one after another from `offset` on, round the end; the
+    /// schedule is made anew once. For distances that obey the triangle inequality, where none of them can
+    /// be a short cut.
+    pub fn remove_spare(&mut self, instance: &Instance<'_>, offset: usize) {
+        let stops = self.tour.len();
+        let mut spare = Vec::new();
+        for i in 0..stops {
+            let candidate = self.tour.order()[(i + offset) % stops];
+            if !self.is_needed(instance, candidate) {
+                self.count(instance, candidate, false);
+                spare.push(candidate);
+            }
+        }
+        self.tour.remove(instance, |c| spare.contains(&c));
+    }
+
     /// What demand `d` lacks.
-    pub fn lacks(&self, instance: &Instance<'_>, d: usize) -> u32 {
-        instance.demands.demands[d].needs.saturating_sub(self.has[d])
+    pub fn lacks(&self, d: usize) -> u32 {
+        self.open[d].max(0) as u32
     }
 
     /// What all demands lack together.
-    pub fn missing(&self, instance: &Instance<'_>) -> u32 {
-        (0..self.has.len()).map(|d| self.lacks(instance, d)).sum()
+    pub fn missing(&self) -> u32 {
+        self.open.iter().map(|&open| open.max(0) as u32).sum()
     }
 
     /// Sum of `weight` over what the demands lack.
-    pub fn penalty(&self, instance: &Instance<'_>, weight: &[f64]) -> f64 {
-        weight.iter().enumerate().map(|(d, w)| w * f64::from(self.lacks(instance, d))).sum()
+    pub fn penalty(&self, weight: &[f64]) -> f64 {
+        self.open.iter().zip(weight).map(|(&open, weight)| weight * f64::from(open.max(0))).sum()
     }
 
     /// Sum of `weight` over the open demands that a candidate helps to meet.
+    #[inline]
     pub fn relief(&self, instance: &Instance<'_>, candidate: u32, weight: &[f64]) -> f64 {
-        let demands = &instance.demands.demands;
         let of = instance.demands.of[candidate as usize].iter().map(|&d| d as usize);
-        of.filter(|&d| self.has[d] < demands[d].needs).map(|d| weight[d]).sum()
+        of.filter(|&d| self.open[d] > 0).map(|d| weight[d]).sum()
     }
 
     /// Whether some demand would lack more without this stop.
     pub fn is_needed(&self, instance: &Instance<'_>, candidate: u32) -> bool {
-        let demands = &instance.demands.demands;
-        let of = &instance.demands.of[candidate as usize];
-        of.iter().any(|&d| self.has[d as usize] <= demands[d as usize].needs)
+        instance.demands.of[candidate as usize].iter().any(|&d| self.open[d as usize] >= 0)
     }
 }
 

@@ -93,6 +93,7 @@ impl Tour {
 
     /// [`Tour::insertion`], if it takes less than `most`. Where metres alone count, times are looked at only
     /// for those.
+    #[inline]
     pub fn insertion_below(
         &self,
         instance: &Instance<'_>,
@@ -112,6 +113,7 @@ impl Tour {
     }
 
     /// Metres by which a candidate lengthens the way.
+    #[inline]
     pub(crate) fn detour_m(&self, instance: &Instance<'_>, position: usize, candidate: u32) -> f64 {
         let (from, to) = (self.place_before(instance, position), self.place(instance, position));
         let via = candidate as usize;

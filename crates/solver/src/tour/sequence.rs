@@ -158,10 +158,10 @@ impl Tour {
             self.runs.push(instance.departure());
         }
         let mut run = self.runs[from];
-        for &candidate in &self.order[from..] {
+        self.runs.extend(self.order[from..].iter().map(|&candidate| {
             run = instance.step(&run, candidate);
-            self.runs.push(run);
-        }
+            run
+        }));
         let end = instance.finish(&run);
         self.finished = end;
         let in_time = self.runs[1..].iter().all(|run| instance.in_time(run));

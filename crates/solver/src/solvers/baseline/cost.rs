@@ -63,7 +63,7 @@ impl Cost {
             Objective::MaxCount => partial.tour.len() as f64,
         };
         let spent = self.per_effort * effort(instance, partial.tour.finished());
-        spent - gains + partial.penalty(instance, &self.weight)
+        spent - gains + partial.penalty(&self.weight)
     }
 
     /// What serving a candidate is worth beside its effort.
@@ -72,9 +72,9 @@ impl Cost {
     }
 
     /// Demands that the tour lacks weigh more from now on, the others slowly less.
-    pub fn adapt(&mut self, instance: &Instance<'_>, partial: &Partial) {
+    pub fn adapt(&mut self, partial: &Partial) {
         for d in 0..self.weight.len() {
-            let factor = if partial.lacks(instance, d) > 0 { 1.02 } else { 0.999 };
+            let factor = if partial.lacks(d) > 0 { 1.02 } else { 0.999 };
             let least = self.first[d];
             self.weight[d] = (self.weight[d] * factor).clamp(least, LAST_WEIGHT * least);
         }

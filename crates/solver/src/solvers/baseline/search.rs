@@ -15,10 +15,13 @@ use crate::solvers::{Budget, SolverName, enumerate, greedy, shortcut};
 use crate::tour::Value;
 
 /// Temperature at the beginning and the end of an annealing run, in scales of the cost.
-const HEAT_OF_DISTANCE: (f64, f64) = (1.5, 0.01);
+///
+/// Which stops a tour has is decided while it is warm: distances below a twentieth of a scale seldom tell two
+/// sets of stops apart, and iterations colder than that only mend the order of one of them.
+const HEAT_OF_DISTANCE: (f64, f64) = (1.5, 0.05);
 const HEAT_OF_GAIN: (f64, f64) = (10.0, 0.05);
-/// Tours with more stops are annealed from a lower temperature, in proportion: an iteration changes a
-/// smaller share of them.
+/// Tours with more stops are annealed from a lower temperature, in proportion, and where distance is the cost to
+/// a lower one: an iteration changes a smaller share of them.
 const MANY_STOPS: f64 = 60.0;
 /// Iterations of the first annealing run: so many a stop, within bounds.
 const RUN_PER_STOP: u64 = 50;
@@ -124,12 +127,12 @@ impl<'a, 'b> Search<'a, 'b> {
         if self.useful.is_empty() || budget.is_spent() {
             return;
         }
-        let (hot, cold) = match self.instance.scenario.objective {
-            Objective::MinDistance => HEAT_OF_DISTANCE,
-            Objective::MaxReward | Objective::MaxCount => HEAT_OF_GAIN,
-        };
         let stops = self.best.tour.len();
-        let hot = hot * (MANY_STOPS / stops.max(1) as f64).min(1.0);
+        let few = (MANY_STOPS / stops.max(1) as f64).min(1.0);
+        let (hot, cold) = match self.instance.scenario.objective {
+            Objective::MinDistance => (HEAT_OF_DISTANCE.0 * few, HEAT_OF_DISTANCE.1 * few),
+            Objective::MaxReward | Objective::MaxCount => (HEAT_OF_GAIN.0 * few, HEAT_OF_GAIN.1),
+        };
         let mut length = (RUN_PER_STOP * stops as u64).clamp(FIRST_RUN, LONGEST_FIRST_RUN);
         let mut improved = budget.iterations();
         for run in 1.. {
@@ -158,8 +161,8 @@ impl<'a, 'b> Search<'a, 'b> {
                         improved = budget.iterations();
                     }
                 }
-                if current.missing(&self.instance) > 0 || i % 64 == 0 {
-                    self.cost.adapt(&self.instance, &current);
+                if current.missing() > 0 || i % 64 == 0 {
+                    self.cost.adapt(&current);
                     current_cost = self.cost.of(&self.instance, &current);
                 }
                 if !budget.spend() {
@@ -186,10 +189,7 @@ impl<'a, 'b> Search<'a, 'b> {
         trial.remove(&self.instance, |c| leaves[c as usize]);
         let mut pool = self.pool(&removed);
         recreate(&self.instance, trial, &mut pool, &self.cost, &mut self.near, self.rng);
-        if !self.instance.untimed
-            && trial.missing(&self.instance) > 0
-            && self.rng.random_bool(REPAIR)
-        {
+        if !self.instance.untimed && trial.missing() > 0 && self.rng.random_bool(REPAIR) {
             self.repair(trial);
         }
         if self.instance.scenario.objective == Objective::MinDistance {
@@ -242,24 +242,29 @@ impl<'a, 'b> Search<'a, 'b> {
         let instance = &self.instance;
         let stops = trial.tour.len();
         let offset = if stops == 0 { 0 } else { self.rng.random_range(0..stops) };
+        if instance.metric {
+            trial.remove_spare(instance, offset);
+            return;
+        }
         let order: Vec<u32> = trial.tour.order().to_vec();
         for i in 0..stops {
             let candidate = order[(i + offset) % stops];
-            if !trial.is_needed(instance, candidate) {
-                let length = trial.tour.finished().distance_m;
-                let position = trial.tour.position(candidate);
-                trial.remove(instance, |c| c == candidate);
-                let worse = trial.tour.finished().distance_m > length || !trial.tour.is_legal();
-                if let Some(position) = position.filter(|_| worse) {
-                    trial.insert(instance, position, candidate);
-                }
+            if trial.is_needed(instance, candidate) {
+                continue;
+            }
+            let length = trial.tour.finished().distance_m;
+            let position = trial.tour.position(candidate);
+            trial.remove(instance, |c| c == candidate);
+            let worse = trial.tour.finished().distance_m > length || !trial.tour.is_legal();
+            if let Some(position) = position.filter(|_| worse) {
+                trial.insert(instance, position, candidate);
             }
         }
     }
 
     /// Keeps a tour that is better than the best.
     fn keep(&mut self, current: &Partial) -> bool {
-        let missing = if current.missing(&self.instance) == 0 {
+        let missing = if current.missing() == 0 {
             (0, 0)
         } else if self.best_value.is_feasible() {
             return false;

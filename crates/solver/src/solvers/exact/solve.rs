@@ -13,6 +13,10 @@ use crate::tour::{Tour, Value};
 const FIRST: u64 = 60;
 /// In a share, whose budget may end before the first bound is there: so many for each stop of the tour, too.
 const FIRST_PER_STOP_OF_SHARE: u64 = 20;
+/// And where metres are the cost, one for so many of the cube of the stops, up to a limit: the more stops, the
+/// longer the bounds take and the less they show, while the tour may still have the wrong stops.
+const CUBED_STOPS_PER_FIRST: u64 = 2;
+const MOST_OF_CUBED_STOPS: u64 = 10_000;
 /// Iterations of the baseline for a tour that breaks as little as can be.
 const BEST_EFFORT: u64 = 2_000;
 /// Iterations of the baseline that make a proven tour shorter, or earlier, without changing its objective.
@@ -32,7 +36,7 @@ pub fn solve(
     let before = budget.iterations();
     let first = match effort {
         Effort::Whole => FIRST,
-        Effort::Share => FIRST + FIRST_PER_STOP_OF_SHARE * start.len() as u64,
+        Effort::Share => FIRST + first_of_share(instance, start.len() as u64),
     };
     let mut order = improved(instance, start, first, rng, budget);
     let mut claim = Claim::None;
@@ -71,6 +75,15 @@ pub fn solve(
     }
     let iterations = vec![("proof".to_owned(), budget.iterations() - before)];
     Found { order, solver: SolverName::Exact, iterations, claim }
+}
+
+/// Iterations that come before the bounds of a share, for the stops of the tour that it begins with.
+fn first_of_share(instance: &Instance<'_>, stops: u64) -> u64 {
+    let cubed = match instance.scenario.objective {
+        Objective::MinDistance if !instance.moving => stops.pow(3) / CUBED_STOPS_PER_FIRST,
+        _ => 0,
+    };
+    FIRST_PER_STOP_OF_SHARE * stops + cubed.min(MOST_OF_CUBED_STOPS)
 }
 
 /// The best of all tours where they are few; else the tour after some iterations of the baseline.
