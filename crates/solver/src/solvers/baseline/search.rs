@@ -56,13 +56,15 @@ pub fn solve(
         let order = order.unwrap_or_else(|| shortcut::legal_start(instance));
         return found(order, vec![("enumeration".to_owned(), budget.iterations() - before)]);
     }
-    search(instance, start, rng, budget)
+    search(instance, start, None, rng, budget)
 }
 
-/// [`solve`] without the enumeration of small instances.
+/// [`solve`] without the enumeration of small instances. Where it is known how many iterations there will be, the
+/// annealing runs are fitted to them, so that the last one is not cut off while it is warm.
 pub(in crate::solvers) fn search(
     instance: &Instance<'_>,
     start: &[u32],
+    iterations: Option<u64>,
     rng: &mut Pcg64Mcg,
     budget: &mut Budget<'_>,
 ) -> Found {
@@ -73,20 +75,27 @@ pub(in crate::solvers) fn search(
     }
     let built = budget.iterations();
     let mut search = Search::new(instance, Partial::new(instance, &first), rng);
-    search.run(budget, PATIENT_RUNS);
+    search.run(budget, iterations, PATIENT_RUNS);
     let mut order = search.best.tour.order().to_vec();
     if !search.best_value.is_feasible() && !budget.is_spent() {
         // Where not every demand can be met, it matters how many covering sets stand behind each.
         let mut complete = instance.clone();
         complete.demands = instance.all_demands.clone();
         let mut search = Search::new(&complete, Partial::new(&complete, &order), rng);
-        search.run(budget, u32::MAX);
+        search.run(budget, None, u32::MAX);
         order = search.best.tour.order().to_vec();
     }
     let ruined = budget.iterations() - built;
     let phases = [("construction", built - before), ("ruin and recreate", ruined)];
     let iterations = phases.into_iter().map(|(phase, count)| (phase.to_owned(), count)).collect();
     Found { order, solver: SolverName::Baseline, iterations, claim: Claim::None }
+}
+
+/// The length of the first of as many whole runs as there is room for, each twice as long as the one before, if the
+/// first takes at least `length`; of the only one where there is not even room for that.
+pub(super) fn fitted(length: u64, iterations: u64) -> u64 {
+    let runs = (iterations / length.max(1) + 1).ilog2().max(1);
+    iterations.div_ceil((1 << runs) - 1).max(1)
 }
 
 struct Search<'a, 'b> {
@@ -123,7 +132,7 @@ impl<'a, 'b> Search<'a, 'b> {
     }
 
     /// Anneals until the budget ends, nothing improves any more, or `runs` runs gave no feasible tour.
-    fn run(&mut self, budget: &mut Budget<'_>, runs: u32) {
+    fn run(&mut self, budget: &mut Budget<'_>, iterations: Option<u64>, runs: u32) {
         if self.useful.is_empty() || budget.is_spent() {
             return;
         }
@@ -134,6 +143,9 @@ impl<'a, 'b> Search<'a, 'b> {
             Objective::MaxReward | Objective::MaxCount => (HEAT_OF_GAIN.0 * few, HEAT_OF_GAIN.1),
         };
         let mut length = (RUN_PER_STOP * stops as u64).clamp(FIRST_RUN, LONGEST_FIRST_RUN);
+        if let Some(iterations) = iterations {
+            length = fitted(length, iterations);
+        }
         let mut improved = budget.iterations();
         for run in 1.. {
             // Every third run spends what breaks ties sparingly, rather than what is scarce.

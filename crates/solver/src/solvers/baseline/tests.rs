@@ -3,7 +3,7 @@
 use rand_pcg::Pcg64Mcg;
 use rand_pcg::rand_core::SeedableRng;
 
-use super::search::search;
+use super::search::{fitted, search};
 use crate::instance::Instance;
 use crate::scenario::Scenario;
 use crate::solvers::{Budget, enumerate::enumerate};
@@ -30,7 +30,7 @@ fn the_search_finds_what_the_enumeration_finds() {
         let Some(best) = enumerate(&instance, &mut budget) else { continue };
         let mut rng = Pcg64Mcg::seed_from_u64(seed);
         let mut budget = Budget::new(&MaxIterations(20_000));
-        let found = search(&instance, &[], &mut rng, &mut budget).order;
+        let found = search(&instance, &[], None, &mut rng, &mut budget).order;
         let value = |order: &[u32]| Value::of(&instance, &Tour::new(&instance, order));
         assert!(!value(&found).beats(&value(&best)), "{:?}", scenario.name);
         if !Tour::new(&instance, &found).is_legal() || value(&best).beats(&value(&found)) {
@@ -51,10 +51,29 @@ fn golden_scenarios_keep_their_optimum() {
         let mut budget = Budget::new(&MaxIterations(u64::MAX));
         let best = enumerate(&instance, &mut budget).unwrap();
         let mut rng = Pcg64Mcg::seed_from_u64(0);
-        let found = search(&instance, &[], &mut rng, &mut budget).order;
+        let found = search(&instance, &[], None, &mut rng, &mut budget).order;
         for order in [best, found] {
             let value = Value::of(&instance, &Tour::new(&instance, &order));
             assert!(value.is_feasible() && agrees(value.cost.abs(), optimum), "{name}: {value:?}");
         }
     }
+}
+
+#[test]
+fn the_last_run_ends_with_the_iterations() {
+    for (length, iterations) in [(1_000, 400), (1_000, 1_999), (1_000, 3_000), (800, 100_000)] {
+        let first = fitted(length, iterations);
+        let runs = || {
+            (0..64).scan(0, |sum, run| {
+                (*sum < iterations).then(|| {
+                    *sum += first << run;
+                    *sum
+                })
+            })
+        };
+        let (count, end) = (runs().count(), runs().last().unwrap());
+        assert!(end - iterations < 1 << count, "{end} for {iterations}");
+        assert!(count == 1 || first >= length && first < 3 * length, "{first} for {iterations}");
+    }
+    assert_eq!(fitted(1_000, 0), 1);
 }

@@ -53,8 +53,8 @@ const MOST_LABEL_BYTES: usize = 600 << 20;
 const LABELS_PER_ITERATION: usize = 36;
 /// In a share, where the proof turns out to be long, time is better spent on the tour first: iterations for each
 /// cube of its stops, and at most.
-const ITERATIONS_OF_LONG_PROOF: u64 = 3;
-const MOST_ITERATIONS_OF_LONG_PROOF: u64 = 40_000;
+const ITERATIONS_OF_LONG_PROOF: u64 = 8;
+const MOST_ITERATIONS_OF_LONG_PROOF: u64 = 100_000;
 const LABELS_PER_MOVING_ITERATION: usize = 500;
 const MOST_ITERATIONS: u64 = 20_000;
 /// Where the first bound leaves this share of the incumbent open, some iterations come before the search: few
@@ -352,7 +352,8 @@ impl<'p, 'a, 'b> Prover<'p, 'a, 'b> {
     fn improve(&mut self, iterations: u64) {
         let start = self.incumbent.order.clone().unwrap_or_default();
         let (strict, rng) = (self.model.strict, &mut *self.rng);
-        let search = |part: &mut Budget<'_>| baseline::search(strict, &start, rng, part);
+        let search =
+            |part: &mut Budget<'_>| baseline::search(strict, &start, Some(iterations), rng, part);
         let found = self.budget.part(0, iterations, search);
         self.incumbent.offer(self.model, found.order);
     }

@@ -112,8 +112,10 @@ fn improved(
 ) -> Vec<u32> {
     // A construction cut short would be worse than one made with less time: it is finished first.
     let built = if order.is_empty() { 2 * instance.len() as u64 } else { 0 };
-    budget
-        .part(built, built + iterations, |part| baseline::search(instance, order, rng, part).order)
+    let known = (built == 0).then_some(iterations);
+    budget.part(built, built + iterations, |part| {
+        baseline::search(instance, order, known, rng, part).order
+    })
 }
 
 fn is_feasible(instance: &Instance<'_>, order: &[u32]) -> bool {
