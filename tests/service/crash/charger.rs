@@ -114,7 +114,14 @@ impl Charger {
     ) -> Result<(), Status> {
         match self.stage.clone() {
             Stage::Announce(call) => {
-                let departure = departures.announce(call.clone()).await?.into_inner();
+                let departure = match departures.announce(call.clone()).await {
+                    // Nobody took it before the service was away for longer than a t0 may be old.
+                    Err(status) if is_too_old(&call) && status.code() == Code::InvalidArgument => {
+                        self.stage = self.leave();
+                        return Ok(());
+                    }
+                    answer => answer?.into_inner(),
+                };
                 assert_eq!(
                     departure.announced.as_ref().map(|a| &a.client_id),
                     Some(&call.client_id)
@@ -209,4 +216,10 @@ impl Charger {
             Stage::Complete(CompleteRequest { client_id, tour_id: tour.id })
         }
     }
+}
+
+/// Whether the service refuses a call that comes now for its t0.
+fn is_too_old(call: &AnnounceRequest) -> bool {
+    const OLDEST_MS: i64 = 30_000;
+    call.t0.is_some() && us(&call.t0) <= us(&from_now(-OLDEST_MS))
 }
