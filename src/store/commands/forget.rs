@@ -5,13 +5,14 @@
 use std::time::Duration;
 
 use jiff::Timestamp;
+use serde::Serialize;
 use sqlx::sqlite::SqliteRow;
 
 use super::announce::ANNOUNCE;
 use super::remembered::Remembered;
 use super::submit::SUBMIT;
 use crate::clock::minus;
-use crate::domain::Fingerprint;
+use crate::domain::{ClientId, Fingerprint, NetworkId};
 use crate::store::StoreError;
 use crate::store::cells::Cells;
 use crate::store::rows::{self, departure_columns, request_columns};
@@ -85,6 +86,20 @@ const CALLS: &str = "\
     WHERE t.network_id = substr(c.scope, 14) AND t.updated_us = c.created_us) \
     WHEN 'submit:' THEN 1 WHEN 'announce:' THEN 1 ELSE 0 END ORDER BY c.created_us LIMIT ?2";
 
+/// What is remembered of the departures that go.
+const ANNOUNCED: &str = concat!(
+    "SELECT d.network_id, d.fingerprint, ",
+    departure_columns!(),
+    " FROM departures d WHERE d.id IN (SELECT id FROM going)"
+);
+
+/// What is remembered of the requests that go.
+const SUBMITTED: &str = concat!(
+    "SELECT r.fingerprint, ",
+    request_columns!(),
+    " FROM requests r WHERE r.id IN (SELECT id FROM going)"
+);
+
 /// What hangs on departures, from the leaves to the root.
 const OF_DEPARTURES: [&str; 6] = [
     "DELETE FROM explanations WHERE plan_id IN (SELECT id FROM plans WHERE departure_id IN (SELECT id FROM going))",
@@ -101,13 +116,13 @@ impl Command for Forget {
     async fn apply(&self, w: &mut Writing) -> Result<Forgotten, Failure> {
         let calls = minus(self.before, LONGER);
         choose(w, DEPARTURES, self.before).await?;
-        self.remember_departures(w).await?;
+        self.remember(w, ANNOUNCE, ANNOUNCED, rows::departure).await?;
         let mut departures = 0;
         for sql in OF_DEPARTURES {
             departures = sqlx::query(sql).execute(&mut w.conn).await?.rows_affected();
         }
         choose(w, REQUESTS, self.before).await?;
-        self.remember_requests(w).await?;
+        self.remember(w, SUBMIT, SUBMITTED, rows::request).await?;
         let requests = delete(w, "DELETE FROM requests WHERE id IN (SELECT id FROM going)").await?;
         choose(w, CALLS, calls).await?;
         let calls = delete(w, "DELETE FROM calls WHERE rowid IN (SELECT id FROM going)").await?;
@@ -116,42 +131,26 @@ impl Command for Forget {
 }
 
 impl Forget {
-    async fn remember_requests(&self, w: &mut Writing) -> Result<(), StoreError> {
-        const SQL: &str = concat!(
-            "SELECT r.fingerprint, ",
-            request_columns!(),
-            " FROM requests r WHERE r.id IN (SELECT id FROM going)"
-        );
-        for row in sqlx::query(SQL).fetch_all(&mut w.conn).await? {
-            let request = rows::request(&row)?;
-            let network = &request.asked.network_id;
-            let fingerprint = fingerprint("requests", &row)?;
-            let call = Remembered::with(SUBMIT, network, &request.client_id, fingerprint);
-            call.keep_since(self.before, w, &request).await?;
+    /// Remembers the calls that made the rows that are to go.
+    async fn remember<T: Serialize>(
+        &self,
+        w: &mut Writing,
+        call: &'static str,
+        sql: &'static str,
+        read: fn(&SqliteRow) -> Result<T, StoreError>,
+    ) -> Result<(), StoreError> {
+        for row in sqlx::query(sql).fetch_all(&mut w.conn).await? {
+            let cells = Cells::new(call, &row);
+            let (network, client_id): (NetworkId, ClientId) =
+                (cells.parsed("network_id")?, cells.parsed("client_id")?);
+            let fingerprint: &[u8] = cells.get("fingerprint")?;
+            let fingerprint =
+                fingerprint.try_into().map_err(|error| StoreError::row(call, error))?;
+            let call = Remembered::with(call, network, &client_id, Fingerprint(fingerprint));
+            call.keep_since(self.before, w, &read(&row)?).await?;
         }
         Ok(())
     }
-
-    async fn remember_departures(&self, w: &mut Writing) -> Result<(), StoreError> {
-        const SQL: &str = concat!(
-            "SELECT d.fingerprint, ",
-            departure_columns!(),
-            " FROM departures d WHERE d.id IN (SELECT id FROM going)"
-        );
-        for row in sqlx::query(SQL).fetch_all(&mut w.conn).await? {
-            let departure = rows::departure(&row)?;
-            let network = &departure.announced.network_id;
-            let fingerprint = fingerprint("departures", &row)?;
-            let call = Remembered::with(ANNOUNCE, network, &departure.client_id, fingerprint);
-            call.keep_since(self.before, w, &departure).await?;
-        }
-        Ok(())
-    }
-}
-
-fn fingerprint(table: &'static str, row: &SqliteRow) -> Result<Fingerprint, StoreError> {
-    let bytes: &[u8] = Cells::new(table, row).get("fingerprint")?;
-    Ok(Fingerprint(bytes.try_into().map_err(|error| StoreError::row(table, error))?))
 }
 
 /// Puts what is to go into a table of the connection's own.
