@@ -244,8 +244,8 @@ impl<'a> Instance<'a> {
             }
             Place::Moving(trajectory) => {
                 let not_before = candidate.ready_s.max(run.depart_s);
-                let arrive_s = earliest(trajectory, run.place, run.depart_s, not_before, speed);
-                let place = trajectory.at(arrive_s);
+                let (arrive_s, place) =
+                    earliest(trajectory, run.place, run.depart_s, not_before, speed);
                 (arrive_s, (place - run.place).norm(), place)
             }
         }

@@ -142,12 +142,24 @@ pub struct Waypoint {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trajectory {
     waypoints: Vec<Waypoint>,
+    /// Equal parts of the time between the first and the last waypoint, as many as waypoints, in a second.
+    parts_per_s: f64,
+    /// By part, and last by the end, how many waypoints lie in earlier ones.
+    before: Vec<u32>,
 }
 
 impl Trajectory {
     /// Only for the validation, which has made sure of at least one row and of rising times.
     pub(super) fn new(waypoints: Vec<Waypoint>) -> Self {
-        Self { waypoints }
+        let ends = waypoints.first().zip(waypoints.last());
+        let seconds = ends.map_or(0.0, |(first, last)| last.time_s - first.time_s);
+        let parts_per_s = if seconds > 0.0 { waypoints.len() as f64 / seconds } else { 0.0 };
+        let mut trajectory = Self { waypoints, parts_per_s, before: Vec::new() };
+        let parts: Vec<usize> =
+            trajectory.waypoints.iter().map(|row| trajectory.part(row.time_s)).collect();
+        let before = |part| parts.partition_point(|&other| other < part) as u32;
+        trajectory.before = (0..=parts.len()).map(before).collect();
+        trajectory
     }
 
     /// At least one waypoint, times strictly rising.
@@ -157,8 +169,20 @@ impl Trajectory {
 
     /// The place at a time.
     pub fn at(&self, time_s: f64) -> Point {
-        let after = self.waypoints.partition_point(|w| w.time_s <= time_s);
-        match (after.checked_sub(1).map(|i| self.waypoints[i]), self.waypoints.get(after)) {
+        self.behind(self.passed(time_s), time_s)
+    }
+
+    /// How many waypoints have been passed at a time.
+    pub fn passed(&self, time_s: f64) -> usize {
+        // No later time lies in an earlier part, however it is rounded: only rows of the same part decide.
+        let part = self.part(time_s);
+        let (first, last) = (self.before[part] as usize, self.before[part + 1] as usize);
+        first + self.waypoints[first..last].partition_point(|row| row.time_s <= time_s)
+    }
+
+    /// The place at a time at which so many waypoints have been passed.
+    pub fn behind(&self, passed: usize, time_s: f64) -> Point {
+        match (passed.checked_sub(1).map(|i| self.waypoints[i]), self.waypoints.get(passed)) {
             (None, Some(first)) => first.position_m,
             (Some(last), None) => last.position_m,
             (Some(a), Some(b)) => {
@@ -167,6 +191,13 @@ impl Trajectory {
             }
             (None, None) => Point::origin(),
         }
+    }
+
+    fn part(&self, time_s: f64) -> usize {
+        let first_s = self.waypoints.first().map_or(0.0, |first| first.time_s);
+        // Negative, before the first, becomes none.
+        let part = ((time_s - first_s) * self.parts_per_s) as usize;
+        part.min(self.waypoints.len().saturating_sub(1))
     }
 }
 

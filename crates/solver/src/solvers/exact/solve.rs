@@ -22,7 +22,9 @@ const BEST_EFFORT: u64 = 2_000;
 /// Iterations of the baseline that make a proven tour shorter, or earlier, without changing its objective.
 const POLISH: u64 = 400;
 /// The same where sensors move and an iteration takes long.
-const MOVING_POLISH: u64 = 60;
+const MOVING_POLISH: u64 = 20;
+/// And before the first bound where the stops at moving sensors are counted: the proof's own search finds more.
+const FIRST_OF_COUNT: u64 = 5;
 
 /// The best tour with its proof, or what is known when the budget ends. `start` is a legal tour to begin
 /// with; it may be empty.
@@ -36,6 +38,9 @@ pub fn solve(
     let before = budget.iterations();
     let first = match effort {
         Effort::Whole => FIRST,
+        _ if instance.moving && instance.scenario.objective == Objective::MaxCount => {
+            FIRST_OF_COUNT
+        }
         Effort::Share => FIRST + first_of_share(instance, start.len() as u64),
     };
     let mut order = improved(instance, start, first, rng, budget);

@@ -20,7 +20,7 @@ pub struct Prices {
 /// Length of the first step, of the first one from prices that have climbed before, and what becomes of it
 /// when the bound has stalled.
 const FIRST_STEP: f64 = 1.0;
-const NEXT_STEP: f64 = 0.15;
+const NEXT_STEP: f64 = 0.3;
 const SHORTER: f64 = 0.7;
 const PATIENCE: u32 = 3;
 /// Share of the direction before that is kept.

@@ -17,17 +17,22 @@ pub struct Look {
     pub width: usize,
 }
 
-/// The first look finds tours, and proves what prices prove alone; each next one takes many times longer.
-const LOOKS: [Look; 4] = [
-    Look { intervals: 448, steps: 40, width: 64 },
-    Look { intervals: 1_792, steps: 15, width: 2_000 },
+/// The first look is a glance that decides most instances; the next ones find tours, and prove what prices
+/// prove alone; those after them take many times longer each.
+const LOOKS: [Look; 6] = [
+    Look { intervals: 80, steps: 20, width: 100 },
+    Look { intervals: 200, steps: 30, width: 500 },
+    Look { intervals: 800, steps: 15, width: 4_000 },
+    Look { intervals: 2_000, steps: 10, width: 12_000 },
     Look { intervals: 3_584, steps: 12, width: 100_000 },
     Look { intervals: 7_168, steps: 12, width: usize::MAX },
 ];
+/// So many looks begin with prices of their own: those that climbed at a glance lead astray.
+const GLANCES: usize = 1;
 /// Hops that a timetable may have: 8 bytes each.
 const MOST_HOPS: usize = 16_000_000;
 /// Looks that are a share of a planner's time, and the hops of a timetable that is.
-const SHARE: usize = 2;
+const SHARE: usize = 4;
 const SHARE_HOPS: usize = 2_000_000;
 /// Memory for labels.
 const MOST_BYTES: usize = 600 << 20;
@@ -137,9 +142,13 @@ impl<'c> Counter<'c> {
         let mut prices = Prices::begin(instance, &self.charges_s, stops);
         for (look, &Look { intervals, steps, width }) in self.looks.iter().enumerate() {
             if look == self.tables.len() {
-                self.tables.push(Timetable::new(instance, intervals));
+                let Some(table) = Timetable::new(instance, intervals, budget) else { break };
+                self.tables.push(table);
             }
             let table = &self.tables[look];
+            if look == GLANCES {
+                prices = Prices::begin(instance, &self.charges_s, stops);
+            }
             prices.climb(table, &self.firsts_s, limit_s, steps, budget);
             if prices.bound_s > limit_s {
                 return Outcome::None;

@@ -58,7 +58,8 @@ fn timetables_hold_at_every_moment() {
     for seed in 0..trials(300) {
         let scenario = Scenario::from_document(&about_time(seed)).unwrap();
         let instance = Instance::new(&scenario);
-        let table = Timetable::new(&instance, 1 + seed as usize % 40);
+        let mut budget = Budget::new(&MaxIterations(u64::MAX));
+        let table = Timetable::new(&instance, 1 + seed as usize % 40, &mut budget).unwrap();
         for _moment in 0..30 {
             let time_s = rng.random_range(0.0..=instance.timespan_s);
             let b = table.interval(time_s);

@@ -5,6 +5,7 @@
 
 use crate::instance::Instance;
 use crate::scenario::Place;
+use crate::solvers::Budget;
 use crate::solvers::exact::network::stand;
 
 /// A hop that cannot be made in time.
@@ -41,8 +42,8 @@ pub struct Timetable {
 }
 
 impl Timetable {
-    /// Tables all hops; the time span must be finite.
-    pub fn new(instance: &Instance<'_>, intervals: usize) -> Self {
+    /// Tables all hops; the time span must be finite. An iteration a candidate; `None` if the budget ends before.
+    pub fn new(instance: &Instance<'_>, intervals: usize, budget: &mut Budget<'_>) -> Option<Self> {
         let n = instance.len();
         let width_s = instance.timespan_s.max(1e-9) / intervals as f64;
         let mut table = Self {
@@ -55,6 +56,9 @@ impl Timetable {
         };
         let speeds: Vec<f64> = (0..n).map(|i| most_mps(instance, i)).collect();
         for from in 0..n {
+            if !budget.spend() {
+                return None;
+            }
             table.fill(instance, width_s, &speeds, from);
         }
         for (within, (b, hops)) in
@@ -62,7 +66,7 @@ impl Timetable {
         {
             *within = hops.iter().any(|hop| hop.least_s.is_finite() && usize::from(hop.first) == b);
         }
-        table
+        Some(table)
     }
 
     /// The interval of a moment.
