@@ -72,7 +72,11 @@ impl Tour {
         candidate: u32,
     ) -> Option<Insertion> {
         let (metres, seconds, joules) = if instance.untimed {
-            self.longer(instance, position, candidate)?
+            let (metres, seconds, joules) = self.longer(instance, position, candidate);
+            if !self.fits(instance, metres, seconds, joules) {
+                return None;
+            }
+            (metres, seconds, joules)
         } else if instance.moving {
             let run = instance.step(self.before(position), candidate);
             if !instance.in_time(&run) {
@@ -91,8 +95,8 @@ impl Tour {
         Some(Insertion { position, effort })
     }
 
-    /// [`Tour::insertion`], if it takes less than `most`. Where metres alone count, times are looked at only
-    /// for those.
+    /// [`Tour::insertion`], if it takes less than `most`. Where metres decide, limits are looked at only for
+    /// those.
     #[inline]
     pub fn insertion_below(
         &self,
@@ -102,6 +106,12 @@ impl Tour {
         most: f64,
     ) -> Option<Insertion> {
         let per = &instance.effort;
+        if instance.untimed {
+            let (metres, seconds, joules) = self.longer(instance, position, candidate);
+            let effort = per.per_m * metres + per.per_s * seconds + per.per_j * joules;
+            let better = effort < most && self.fits(instance, metres, seconds, joules);
+            return better.then_some(Insertion { position, effort });
+        }
         if per.per_s == 0.0
             && per.per_j == 0.0
             && !instance.moving
@@ -122,21 +132,21 @@ impl Tour {
     }
 
     /// Metres, seconds and joules more, where totals decide.
-    fn longer(
-        &self,
-        instance: &Instance<'_>,
-        position: usize,
-        candidate: u32,
-    ) -> Option<(f64, f64, f64)> {
+    #[inline]
+    fn longer(&self, instance: &Instance<'_>, position: usize, candidate: u32) -> (f64, f64, f64) {
         let charger = &instance.scenario.charger;
         let metres = self.detour_m(instance, position, candidate);
         let joules = instance.candidates[candidate as usize].charge_j(0.0);
-        let seconds = metres / charger.speed_mps + joules / charger.transfer_w;
+        (metres, metres / charger.speed_mps + joules / charger.transfer_w, joules)
+    }
+
+    /// Whether there is room for so much more, where totals decide.
+    #[inline]
+    fn fits(&self, instance: &Instance<'_>, metres: f64, seconds: f64, joules: f64) -> bool {
         let now = self.finished();
-        let energy_j = instance.energy_j(now) + charger.travel_jpm * metres + joules;
-        let legal =
-            now.arrive_s + seconds <= instance.timespan_s && energy_j <= instance.capacity_j;
-        legal.then_some((metres, seconds, joules))
+        let energy_j =
+            instance.energy_j(now) + instance.scenario.charger.travel_jpm * metres + joules;
+        now.arrive_s + seconds <= instance.timespan_s && energy_j <= instance.capacity_j
     }
 
     /// The same where nothing moves: the seconds by which the next stop is delayed.

@@ -19,7 +19,7 @@ use crate::tour::Value;
 /// Which stops a tour has is decided while it is warm: distances below a twentieth of a scale seldom tell two
 /// sets of stops apart, and iterations colder than that only mend the order of one of them.
 const HEAT_OF_DISTANCE: (f64, f64) = (1.5, 0.05);
-const HEAT_OF_GAIN: (f64, f64) = (10.0, 0.05);
+const HEAT_OF_GAIN: (f64, f64) = (10.0, 0.2);
 /// Tours with more stops are annealed from a lower temperature, in proportion, and where distance is the cost to
 /// a lower one: an iteration changes a smaller share of them.
 const MANY_STOPS: f64 = 60.0;
@@ -29,8 +29,12 @@ const FIRST_RUN: u64 = 1000;
 const LONGEST_FIRST_RUN: u64 = 4000;
 /// Annealing runs without a feasible tour after which the best effort is looked for instead.
 const PATIENT_RUNS: u32 = 5;
-/// Pools beyond this size are cut down to the neighbourhood of what left.
-const WIDE_POOL: usize = 100;
+/// Pools beyond this size are cut down to what left and so many neighbours of each, where distance is the cost and
+/// where gains are: those are many candidates for few places, and most iterations need not look at all of them.
+const WIDE_POOL_OF_DISTANCE: (usize, usize) = (100, 6);
+const WIDE_POOL_OF_GAIN: (usize, usize) = (40, 10);
+/// But as often as this they are not.
+const WHOLE_POOL: f64 = 0.02;
 /// Tours longer than this are improved by local search in every iteration.
 const LONG: usize = 40;
 /// A demand that no legal insertion meets has its deadlines repaired this often.
@@ -237,12 +241,16 @@ impl<'a, 'b> Search<'a, 'b> {
     }
 
     fn pool(&mut self, removed: &[u32]) -> Vec<u32> {
-        if self.useful.len() <= WIDE_POOL || self.rng.random_bool(0.02) {
+        let (wide, near) = match self.instance.scenario.objective {
+            Objective::MinDistance => WIDE_POOL_OF_DISTANCE,
+            Objective::MaxReward | Objective::MaxCount => WIDE_POOL_OF_GAIN,
+        };
+        if self.useful.len() <= wide || self.rng.random_bool(WHOLE_POOL) {
             return self.useful.clone();
         }
         let mut pool = removed.to_vec();
         for &candidate in removed {
-            pool.extend(self.near.of(&self.instance, candidate).iter().take(6));
+            pool.extend(self.near.of(&self.instance, candidate).iter().take(near));
         }
         pool.sort_unstable();
         pool.dedup();
