@@ -38,8 +38,8 @@ impl Effort {
         orders_grow: false,
     };
 
-    /// What `auto` begins with: eight roll-outs.
-    pub const SHARE: Self = Self { beam: 7, temperature: 0.1, orders: 16, ..Self::GREEDY };
+    /// What `auto` begins with: one roll-out, for the search that follows makes more of the time than others would.
+    pub const SHARE: Self = Self { temperature: 0.1, orders: 16, ..Self::GREEDY };
 
     /// What the solver `dqn` does: at most 32 complete roll-outs. Where demands have to be met by their
     /// deadlines, the order is most of what is left to win, and another one costs little.

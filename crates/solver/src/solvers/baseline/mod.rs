@@ -9,8 +9,8 @@ mod recreate;
 mod ruin;
 mod search;
 
-pub(super) use search::search;
 pub use search::solve;
+pub(super) use search::{search, whole_runs};
 
 #[cfg(test)]
 mod tests;

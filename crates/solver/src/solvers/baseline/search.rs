@@ -102,6 +102,19 @@ pub(super) fn fitted(length: u64, iterations: u64) -> u64 {
     iterations.div_ceil((1 << runs) - 1).max(1)
 }
 
+/// As many iterations as whole runs have that begin with a tour of so many stops: the nearest number of runs; where
+/// that is none, the iterations.
+pub(in crate::solvers) fn whole_runs(stops: u64, iterations: u64) -> u64 {
+    let length = first_run(stops);
+    let runs = (iterations as f64 / length as f64 + 1.0).log2().round() as u32;
+    if runs == 0 { iterations } else { length * ((1 << runs.min(32)) - 1) }
+}
+
+/// Iterations of the first run.
+fn first_run(stops: u64) -> u64 {
+    RUN_PER_STOP.saturating_mul(stops).clamp(FIRST_RUN, LONGEST_FIRST_RUN)
+}
+
 struct Search<'a, 'b> {
     /// Its own, for it changes what counts as effort.
     instance: Instance<'b>,
@@ -146,7 +159,7 @@ impl<'a, 'b> Search<'a, 'b> {
             Objective::MinDistance => (HEAT_OF_DISTANCE.0 * few, HEAT_OF_DISTANCE.1 * few),
             Objective::MaxReward | Objective::MaxCount => (HEAT_OF_GAIN.0 * few, HEAT_OF_GAIN.1),
         };
-        let mut length = (RUN_PER_STOP * stops as u64).clamp(FIRST_RUN, LONGEST_FIRST_RUN);
+        let mut length = first_run(stops as u64);
         if let Some(iterations) = iterations {
             length = fitted(length, iterations);
         }

@@ -53,7 +53,7 @@ const MOST_LABEL_BYTES: usize = 600 << 20;
 const LABELS_PER_ITERATION: usize = 36;
 /// In a share, where the proof turns out to be long, time is better spent on the tour first: iterations for each
 /// cube of its stops, and at most.
-const ITERATIONS_OF_LONG_PROOF: u64 = 8;
+const ITERATIONS_OF_LONG_PROOF: u64 = 3;
 const MOST_ITERATIONS_OF_LONG_PROOF: u64 = 100_000;
 const LABELS_PER_MOVING_ITERATION: usize = 500;
 const MOST_ITERATIONS: u64 = 20_000;
@@ -95,7 +95,7 @@ pub fn prove(
         known = counted.bound;
     }
     let words = model.len().max(model.demands.len()).div_ceil(64);
-    if words > 8 || model.len() * model.len() * INTERVALS > MOST_ARRIVALS {
+    if budget.is_spent() || words > 8 || model.len() * model.len() * INTERVALS > MOST_ARRIVALS {
         return quickly(model, incumbent, known);
     }
     let network = Network::new(model);
@@ -175,6 +175,9 @@ impl<'p, 'a, 'b> Prover<'p, 'a, 'b> {
             if self.incumbent.suffices() {
                 return self.closed();
             }
+            if self.budget.is_spent() {
+                break;
+            }
             self.refine(&mut ascent, FIRST_MEMORY + 1 + round as usize / 2);
         }
         self.left_open(bound)
@@ -214,6 +217,9 @@ impl<'p, 'a, 'b> Prover<'p, 'a, 'b> {
             if done {
                 break;
             }
+        }
+        if self.budget.is_spent() {
+            return End::Open(ascent.best.bound);
         }
         if round == 0 && few(model) && self.is_open(ascent.best.bound, WIDE_GAP) {
             self.improve(match self.effort {
@@ -342,7 +348,8 @@ impl<'p, 'a, 'b> Prover<'p, 'a, 'b> {
         let stops = self.incumbent.order.as_ref().map_or(0, Vec::len) as u64;
         match self.effort {
             Effort::Share if is_long => {
-                (ITERATIONS_OF_LONG_PROOF * stops.pow(3)).min(MOST_ITERATIONS_OF_LONG_PROOF)
+                let iterations = ITERATIONS_OF_LONG_PROOF * stops.pow(3);
+                baseline::whole_runs(stops, iterations.min(MOST_ITERATIONS_OF_LONG_PROOF))
             }
             _ => ((labels / LABELS_PER_ITERATION) as u64).min(MOST_ITERATIONS),
         }
@@ -364,6 +371,10 @@ impl<'p, 'a, 'b> Prover<'p, 'a, 'b> {
     }
 
     fn left_open(&self, bound: f64) -> Proof {
+        if self.budget.is_spent() {
+            // What a search that had no time at all would say still holds.
+            return quickly(self.model, self.incumbent, bound);
+        }
         let bound = bound.min(self.incumbent.cost).min(self.incumbent.beyond);
         Proof { order: self.incumbent.order.clone(), bound, closed: false }
     }

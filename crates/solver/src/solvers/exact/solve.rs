@@ -13,10 +13,12 @@ use crate::tour::{Tour, Value};
 const FIRST: u64 = 60;
 /// In a share, whose budget may end before the first bound is there: so many for each stop of the tour, too.
 const FIRST_PER_STOP_OF_SHARE: u64 = 20;
-/// And where metres are the cost, one for so many of the cube of the stops, up to a limit: the more stops, the
-/// longer the bounds take and the less they show, while the tour may still have the wrong stops.
+/// And where nothing moves, one for so many of a power of the stops, up to a limit: the more stops, the longer the
+/// bounds take and the less they show, while the tour may still have the wrong stops. Where metres are the cost it is
+/// the third; where gains are, bounds take longest, and it is the fifth.
 const CUBED_STOPS_PER_FIRST: u64 = 2;
-const MOST_OF_CUBED_STOPS: u64 = 10_000;
+const FIFTH_POWERS_PER_FIRST: u64 = 32;
+const MOST_OF_POWER: u64 = 10_000;
 /// Iterations of the baseline for a tour that breaks as little as can be.
 const BEST_EFFORT: u64 = 2_000;
 /// Iterations of the baseline that make a proven tour shorter, or earlier, without changing its objective.
@@ -41,7 +43,7 @@ pub fn solve(
         _ if instance.moving && instance.scenario.objective == Objective::MaxCount => {
             FIRST_OF_COUNT
         }
-        Effort::Share => FIRST + first_of_share(instance, start.len() as u64),
+        Effort::Share => first_of_share(instance, start.len() as u64),
     };
     let mut order = improved(instance, start, first, rng, budget);
     let mut claim = Claim::None;
@@ -82,13 +84,16 @@ pub fn solve(
     Found { order, solver: SolverName::Exact, iterations, claim }
 }
 
-/// Iterations that come before the bounds of a share, for the stops of the tour that it begins with.
+/// Iterations that come before the bounds of a share, for the stops of the tour that it begins with: until they are
+/// over it does what the baseline alone would do.
 fn first_of_share(instance: &Instance<'_>, stops: u64) -> u64 {
-    let cubed = match instance.scenario.objective {
-        Objective::MinDistance if !instance.moving => stops.pow(3) / CUBED_STOPS_PER_FIRST,
-        _ => 0,
+    let power = match instance.scenario.objective {
+        _ if instance.moving => 0,
+        Objective::MinDistance => stops.saturating_pow(3) / CUBED_STOPS_PER_FIRST,
+        Objective::MaxReward => stops.saturating_pow(5) / FIFTH_POWERS_PER_FIRST,
+        Objective::MaxCount => 0,
     };
-    FIRST_PER_STOP_OF_SHARE * stops + cubed.min(MOST_OF_CUBED_STOPS)
+    baseline::whole_runs(stops, FIRST + FIRST_PER_STOP_OF_SHARE * stops + power.min(MOST_OF_POWER))
 }
 
 /// The best of all tours where they are few; else the tour after some iterations of the baseline.
