@@ -51,3 +51,73 @@ pub fn earliest(
     let met_s = begin.0 + after.clamp(0.0, seconds);
     (met_s, trajectory.behind(met, met_s))
 }
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::scenario::{Place, Scenario};
+
+    const SPEED_MPS: f64 = 5.0;
+
+    /// The trajectory over these legs, each a time and a way slower than the charger, from a first time on.
+    fn trajectory(first_s: f64, legs: &[(f64, f64, f64)]) -> Trajectory {
+        let mut row = (first_s, 40.0, 60.0);
+        let mut rows = vec![format!("[{},{},{}]", row.0, row.1, row.2)];
+        for &(seconds, share, angle) in legs {
+            let metres = share * SPEED_MPS * seconds;
+            row = (row.0 + seconds, row.1 + metres * angle.cos(), row.2 + metres * angle.sin());
+            rows.push(format!("[{},{},{}]", row.0, row.1, row.2));
+        }
+        let text = format!(
+            r#"{{"format":"voltour/scenario/1","objective":"max_count",
+            "charger":{{"start_m":[0,0],"speed_mps":{SPEED_MPS},"travel_jpm":2,"transfer_w":20}},
+            "sensors":[{{"id":"s","battery_j":200,"trajectory":[{}]}}],
+            "requests":[{{"sensor":"s","residual_j":0}}]}}"#,
+            rows.join(",")
+        );
+        let scenario = Scenario::from_json(text.as_bytes()).unwrap();
+        let Place::Moving(trajectory) = &scenario.sensors[0].place else { panic!("it moves") };
+        trajectory.clone()
+    }
+
+    fn legs() -> impl Strategy<Value = Vec<(f64, f64, f64)>> {
+        let seconds = prop_oneof![0.001..0.1, 1.0..50.0, 500.0..5_000.0];
+        prop::collection::vec((seconds, 0.0..0.95, 0.0..6.3), 0..30)
+    }
+
+    proptest! {
+        #[test]
+        fn waypoints_are_passed_at_their_times(first_s in -100.0..100.0, legs in legs(), share in -0.1..1.1) {
+            let trajectory = trajectory(first_s, &legs);
+            let rows = trajectory.waypoints();
+            let span_s = rows[rows.len() - 1].time_s - rows[0].time_s + 1.0;
+            let moments = rows.iter().map(|row| row.time_s).chain([rows[0].time_s + share * span_s]);
+            for time_s in moments {
+                let passed = rows.iter().filter(|row| row.time_s <= time_s).count();
+                prop_assert_eq!(trajectory.passed(time_s), passed);
+            }
+        }
+
+        #[test]
+        fn nobody_is_met_sooner(
+            first_s in -100.0..100.0,
+            legs in legs(),
+            leave_s in 0.0..3_000.0,
+            wait_s in prop_oneof![Just(0.0), 0.0..500.0],
+            x in -200.0..200.0,
+        ) {
+            let trajectory = trajectory(first_s, &legs);
+            let (from, not_before_s) = (Point::new(x, 10.0), leave_s + wait_s);
+            let (met_s, place) = earliest(&trajectory, from, leave_s, not_before_s, SPEED_MPS);
+            let missed_m = |time_s: f64| {
+                (trajectory.at(time_s) - from).norm() - SPEED_MPS * (time_s - leave_s)
+            };
+            prop_assert!(met_s >= not_before_s && (place - trajectory.at(met_s)).norm() < 1e-6);
+            prop_assert!(missed_m(met_s) < 1e-6, "{} m off", missed_m(met_s));
+            let sooner_s = met_s - 0.01;
+            prop_assert!(sooner_s < not_before_s || missed_m(sooner_s) > 0.0, "{sooner_s}");
+        }
+    }
+}

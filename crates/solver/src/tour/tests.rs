@@ -3,6 +3,7 @@
 use proptest::prelude::*;
 
 use super::{Segment, Tour, simulate};
+use crate::generate::{Reward, reward};
 use crate::instance::Instance;
 use crate::scenario::Scenario;
 
@@ -50,6 +51,26 @@ fn close(a: f64, b: f64) -> bool {
 }
 
 proptest! {
+    #[test]
+    fn a_place_below_a_limit_is_the_place_if_it_is_below(seed in 0..1_000_u64, stops in 0..6_usize) {
+        let options = Reward { sensors: 12, alpha: 1.0, capacity_j: 150_000.0, ..Reward::default() };
+        let scenario = Scenario::from_document(&reward(&options, seed).unwrap()).unwrap();
+        let instance = Instance::new(&scenario);
+        prop_assert!(instance.untimed);
+        let order: Vec<u32> = (0..instance.len() as u32).take(stops).collect();
+        let tour = Tour::new(&instance, &order);
+        for candidate in stops as u32..instance.len() as u32 {
+            let places: Vec<_> =
+                (0..=stops).filter_map(|p| tour.insertion(&instance, p, candidate)).collect();
+            let most = places.first().map_or(f64::INFINITY, |place| place.effort);
+            for position in 0..=stops {
+                let below = tour.insertion_below(&instance, position, candidate, most);
+                let any = places.iter().find(|place| place.position == position);
+                prop_assert_eq!(below, any.filter(|place| place.effort < most).copied());
+            }
+        }
+    }
+
     #[test]
     fn concatenated_equals_simulated(stops in stops(), capacity: bool, cut in 0.0..1.0) {
         let scenario = scenario(&stops, capacity, false);

@@ -111,7 +111,7 @@ pub(in crate::solvers) fn whole_runs(stops: u64, iterations: u64) -> u64 {
 }
 
 /// Iterations of the first run.
-fn first_run(stops: u64) -> u64 {
+pub(super) fn first_run(stops: u64) -> u64 {
     RUN_PER_STOP.saturating_mul(stops).clamp(FIRST_RUN, LONGEST_FIRST_RUN)
 }
 

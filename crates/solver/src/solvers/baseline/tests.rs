@@ -3,7 +3,7 @@
 use rand_pcg::Pcg64Mcg;
 use rand_pcg::rand_core::SeedableRng;
 
-use super::search::{fitted, search};
+use super::search::{first_run, fitted, search, whole_runs};
 use crate::instance::Instance;
 use crate::scenario::Scenario;
 use crate::solvers::{Budget, enumerate::enumerate};
@@ -76,4 +76,20 @@ fn the_last_run_ends_with_the_iterations() {
         assert!(count == 1 || first >= length && first < 3 * length, "{first} for {iterations}");
     }
     assert_eq!(fitted(1_000, 0), 1);
+}
+
+#[test]
+fn whole_runs_are_fitted_as_they_are() {
+    for stops in [0, 5, 12, 23, 60, 1_000] {
+        let length = first_run(stops);
+        for iterations in [1, 300, 1_000, 1_500, 7_000, 20_000, 100_000] {
+            let whole = whole_runs(stops, iterations);
+            assert!(
+                2 * whole >= iterations && 2 * whole <= 5 * iterations,
+                "{iterations}: {whole}"
+            );
+            let less_than_one = whole == iterations && whole < length;
+            assert!(less_than_one || fitted(length, whole) == length, "{iterations}: {whole}");
+        }
+    }
 }
