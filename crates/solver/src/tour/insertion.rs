@@ -183,8 +183,35 @@ impl Tour {
         (0..=self.len()).take_while(|&p| self.before(p).depart_s <= due_s).count()
     }
 
+    /// The cheapest legal place of a candidate of those that `overlooked` does not hold for, asked where one is cheaper
+    /// than those before it. Only where totals decide: there a longer way is never legal where a shorter one is not.
+    pub fn shortest(
+        &self,
+        instance: &Instance<'_>,
+        candidate: u32,
+        mut overlooked: impl FnMut() -> bool,
+    ) -> Option<Insertion> {
+        let via = candidate as usize;
+        let mut best: Option<(usize, f64)> = None;
+        let mut into_m = instance.distance_m(instance.start(), via);
+        for (position, &leg_m) in self.legs_m().iter().enumerate() {
+            let to = self.place(instance, position);
+            let on_m = instance.distance_m(via, to);
+            let metres = into_m + on_m - leg_m;
+            if best.is_none_or(|(_, least_m)| metres < least_m) && !overlooked() {
+                best = Some((position, metres));
+            }
+            into_m = if instance.symmetric { on_m } else { instance.distance_m(to, via) };
+        }
+        let (position, _) = best?;
+        self.insertion(instance, position, candidate)
+    }
+
     /// The cheapest legal place of a candidate among all, the first among equals.
     pub fn cheapest(&self, instance: &Instance<'_>, candidate: u32) -> Option<Insertion> {
+        if instance.untimed {
+            return self.shortest(instance, candidate, || false);
+        }
         let mut best: Option<Insertion> = None;
         for position in 0..self.in_time_until(instance, candidate) {
             let most = best.map_or(f64::INFINITY, |best| best.effort);

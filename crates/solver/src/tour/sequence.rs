@@ -19,6 +19,8 @@ pub struct Tour {
     /// `latest[p]`: getting to position `p` by then keeps every later deadline and the time span;
     /// where nothing moves.
     latest: Vec<f64>,
+    /// `legs_m[p]`: the way to position `p`, the last one to the end; where totals decide.
+    legs_m: Vec<f64>,
     finished: Run,
     legal: bool,
 }
@@ -31,6 +33,7 @@ impl Clone for Tour {
             runs: self.runs.clone(),
             suffix: self.suffix.clone(),
             latest: self.latest.clone(),
+            legs_m: self.legs_m.clone(),
             finished: self.finished,
             legal: self.legal,
         }
@@ -42,6 +45,7 @@ impl Clone for Tour {
         self.runs.clone_from(&source.runs);
         self.suffix.clone_from(&source.suffix);
         self.latest.clone_from(&source.latest);
+        self.legs_m.clone_from(&source.legs_m);
         self.finished = source.finished;
         self.legal = source.legal;
     }
@@ -56,6 +60,7 @@ impl Tour {
             runs: Vec::new(),
             suffix: Vec::new(),
             latest: Vec::new(),
+            legs_m: Vec::new(),
             finished: instance.departure(),
             legal: false,
         };
@@ -173,12 +178,16 @@ impl Tour {
     fn total(&mut self, instance: &Instance<'_>) {
         let charger = &instance.scenario.charger;
         let (mut distance_m, mut charge_j, mut here) = (0.0, 0.0, instance.start());
+        self.legs_m.clear();
         for &candidate in &self.order {
-            distance_m += instance.distance_m(here, candidate as usize);
+            self.legs_m.push(instance.distance_m(here, candidate as usize));
+            distance_m += self.legs_m[self.legs_m.len() - 1];
             charge_j += instance.candidates[candidate as usize].charge_j(0.0);
             here = candidate as usize;
         }
-        distance_m += instance.distance_m(here, instance.end());
+        let last_m = instance.distance_m(here, instance.end());
+        self.legs_m.push(last_m);
+        distance_m += last_m;
         let arrive_s = distance_m / charger.speed_mps + charge_j / charger.transfer_w;
         let end = Run {
             node: instance.end() as u32,
@@ -240,6 +249,11 @@ impl Tour {
     /// When charging begins at a position, the arrival at the end behind the last.
     pub(super) fn arrive_s(&self, position: usize) -> f64 {
         self.runs.get(position + 1).unwrap_or(&self.finished).arrive_s
+    }
+
+    /// The way to each position, in metres, and last to the end; only where totals decide.
+    pub(super) fn legs_m(&self) -> &[f64] {
+        &self.legs_m
     }
 
     /// The rest of the tour from `position` on; only where segments concatenate.

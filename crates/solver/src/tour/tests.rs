@@ -62,6 +62,8 @@ proptest! {
         for candidate in stops as u32..instance.len() as u32 {
             let places: Vec<_> =
                 (0..=stops).filter_map(|p| tour.insertion(&instance, p, candidate)).collect();
+            let cheapest = places.iter().min_by(|a, b| a.effort.total_cmp(&b.effort));
+            prop_assert_eq!(tour.cheapest(&instance, candidate), cheapest.copied());
             let most = places.first().map_or(f64::INFINITY, |place| place.effort);
             for position in 0..=stops {
                 let below = tour.insertion_below(&instance, position, candidate, most);

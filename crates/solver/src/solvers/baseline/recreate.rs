@@ -115,6 +115,9 @@ fn place(
     rng: &mut Pcg64Mcg,
 ) -> Option<Insertion> {
     let tour = &partial.tour;
+    if instance.untimed && tour.len() <= WHOLE {
+        return tour.shortest(instance, candidate, || rng.random_bool(BLINK));
+    }
     let mut best: Option<Insertion> = None;
     let mut attempt = |position: usize, rng: &mut Pcg64Mcg| {
         let most = best.map_or(f64::INFINITY, |old| old.effort);

@@ -15,9 +15,9 @@ const FIRST: u64 = 60;
 const FIRST_PER_STOP_OF_SHARE: u64 = 20;
 /// And where nothing moves, one for so many of a power of the stops, up to a limit: the more stops, the longer the
 /// bounds take and the less they show, while the tour may still have the wrong stops. Where metres are the cost it is
-/// the third; where gains are, bounds take longest, and it is the fifth.
+/// the third; where gains are, bounds take longest, and it is the sixth.
 const CUBED_STOPS_PER_FIRST: u64 = 2;
-const FIFTH_POWERS_PER_FIRST: u64 = 32;
+const SIXTH_POWERS_PER_FIRST: u64 = 220;
 const MOST_OF_POWER: u64 = 10_000;
 /// Iterations of the baseline for a tour that breaks as little as can be.
 const BEST_EFFORT: u64 = 2_000;
@@ -90,7 +90,7 @@ fn first_of_share(instance: &Instance<'_>, stops: u64) -> u64 {
     let power = match instance.scenario.objective {
         _ if instance.moving => 0,
         Objective::MinDistance => stops.saturating_pow(3) / CUBED_STOPS_PER_FIRST,
-        Objective::MaxReward => stops.saturating_pow(5) / FIFTH_POWERS_PER_FIRST,
+        Objective::MaxReward => stops.saturating_pow(6) / SIXTH_POWERS_PER_FIRST,
         Objective::MaxCount => 0,
     };
     baseline::whole_runs(stops, FIRST + FIRST_PER_STOP_OF_SHARE * stops + power.min(MOST_OF_POWER))
