@@ -97,6 +97,12 @@ impl Partial {
         of.filter(|&d| self.open[d] > 0).map(|d| weight[d]).sum()
     }
 
+    /// Whether a candidate helps to meet an open demand.
+    #[inline]
+    pub fn helps(&self, instance: &Instance<'_>, candidate: u32) -> bool {
+        instance.demands.of[candidate as usize].iter().any(|&d| self.open[d as usize] > 0)
+    }
+
     /// Whether some demand would lack more without this stop.
     pub fn is_needed(&self, instance: &Instance<'_>, candidate: u32) -> bool {
         instance.demands.of[candidate as usize].iter().any(|&d| self.open[d as usize] >= 0)

@@ -63,12 +63,18 @@ impl Cost {
             Objective::MaxCount => partial.tour.len() as f64,
         };
         let spent = self.per_effort * effort(instance, partial.tour.finished());
-        spent - gains + partial.penalty(&self.weight)
+        let penalty = if partial.missing() == 0 { 0.0 } else { partial.penalty(&self.weight) };
+        spent - gains + penalty
     }
 
     /// What serving a candidate is worth beside its effort.
     pub fn worth(&self, instance: &Instance<'_>, partial: &Partial, candidate: u32) -> f64 {
         gain(instance, candidate) + partial.relief(instance, candidate, &self.weight)
+    }
+
+    /// Whether that is more than nothing: every open demand has a weight.
+    pub fn is_worth(&self, instance: &Instance<'_>, partial: &Partial, candidate: u32) -> bool {
+        gain(instance, candidate) > 0.0 || partial.helps(instance, candidate)
     }
 
     /// Demands that the tour lacks weigh more from now on, the others slowly less.

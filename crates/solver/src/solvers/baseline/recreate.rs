@@ -34,9 +34,7 @@ pub fn recreate(
 ) {
     // Without the triangle inequality a stop that is worth nothing may still be a short cut.
     let detours = !instance.metric;
-    pool.retain(|&c| {
-        !partial.tour.serves(c) && (detours || cost.worth(instance, partial, c) > 0.0)
-    });
+    pool.retain(|&c| !partial.tour.serves(c) && (detours || cost.is_worth(instance, partial, c)));
     pool.shuffle(rng);
     let by = rng.random_range(0..8);
     if by == 0 && pool.len() * partial.tour.len() < 2000 {
@@ -48,7 +46,7 @@ pub fn recreate(
     }
     sort(instance, partial, pool, cost, by, near, rng);
     for &candidate in pool.iter() {
-        let worthless = cost.worth(instance, partial, candidate) <= 0.0;
+        let worthless = !cost.is_worth(instance, partial, candidate);
         if worthless && !detours {
             continue;
         }
