@@ -19,14 +19,14 @@ const FIRST_PER_STOP_OF_SHARE: u64 = 20;
 const CUBED_STOPS_PER_FIRST: u64 = 2;
 const SIXTH_POWERS_PER_FIRST: u64 = 220;
 const MOST_OF_POWER: u64 = 10_000;
+/// In a share where the stops at moving sensors are counted, no more: the proof's own search finds better tours.
+const FIRST_OF_COUNT: u64 = 5;
 /// Iterations of the baseline for a tour that breaks as little as can be.
 const BEST_EFFORT: u64 = 2_000;
 /// Iterations of the baseline that make a proven tour shorter, or earlier, without changing its objective.
 const POLISH: u64 = 400;
 /// The same where sensors move and an iteration takes long.
 const MOVING_POLISH: u64 = 20;
-/// And before the first bound where the stops at moving sensors are counted: the proof's own search finds more.
-const FIRST_OF_COUNT: u64 = 5;
 
 /// The best tour with its proof, or what is known when the budget ends. `start` is a legal tour to begin
 /// with; it may be empty.
@@ -87,13 +87,16 @@ pub fn solve(
 /// Iterations that come before the bounds of a share, for the stops of the tour that it begins with: until they are
 /// over it does what the baseline alone would do.
 fn first_of_share(instance: &Instance<'_>, stops: u64) -> u64 {
+    let first = FIRST + FIRST_PER_STOP_OF_SHARE * stops;
+    if instance.moving {
+        return first;
+    }
     let power = match instance.scenario.objective {
-        _ if instance.moving => 0,
         Objective::MinDistance => stops.saturating_pow(3) / CUBED_STOPS_PER_FIRST,
         Objective::MaxReward => stops.saturating_pow(6) / SIXTH_POWERS_PER_FIRST,
         Objective::MaxCount => 0,
     };
-    baseline::whole_runs(stops, FIRST + FIRST_PER_STOP_OF_SHARE * stops + power.min(MOST_OF_POWER))
+    baseline::whole_runs(stops, first + power.min(MOST_OF_POWER))
 }
 
 /// The best of all tours where they are few; else the tour after some iterations of the baseline.
