@@ -18,7 +18,7 @@ const FIRST_PER_STOP_OF_SHARE: u64 = 20;
 /// the third; where gains are, bounds take longest, and it is the sixth.
 const CUBED_STOPS_PER_FIRST: u64 = 2;
 const SIXTH_POWERS_PER_FIRST: u64 = 220;
-const MOST_OF_POWER: u64 = 10_000;
+const MOST_OF_POWER: u64 = 14_000;
 /// In a share where the stops at moving sensors are counted, no more: the proof's own search finds better tours.
 const FIRST_OF_COUNT: u64 = 5;
 /// Iterations of the baseline for a tour that breaks as little as can be.
