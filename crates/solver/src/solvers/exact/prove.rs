@@ -39,6 +39,8 @@ pub enum Effort {
 const ROUNDS: u32 = 20;
 /// Rounds of a share, and up to how many arcs over all layers they are worth beginning.
 const SHARES: [(u32, usize); 3] = [(4, 200_000), (2, 1_000_000), (1, 3_000_000)];
+/// Up to how many where sensors move: there paths are followed within an interval over and over.
+const MOST_MOVING_ARCS_OF_SHARE: usize = 500_000;
 /// Steps of the ascent in the first round and in later ones.
 const FIRST_STEPS: u32 = 30;
 const FIRST_STEPS_OF_FEW: u32 = 20;
@@ -100,7 +102,9 @@ pub fn prove(
     }
     let network = Network::new(model);
     let arrivals = network.arcs.len() * INTERVALS;
-    let share = SHARES.iter().find(|(_, most)| arrivals <= *most).map_or(0, |share| share.0);
+    let most = if model.wide.moving { MOST_MOVING_ARCS_OF_SHARE } else { usize::MAX };
+    let share =
+        SHARES.iter().find(|share| arrivals <= share.1.min(most)).map_or(0, |share| share.0);
     let rounds = if effort == Effort::Whole { ROUNDS } else { share };
     if rounds == 0 {
         return quickly(model, incumbent, known);
