@@ -148,7 +148,7 @@ fn an_infeasible_scenario_is_explained() {
 fn a_plan_is_explained_if_it_holds() {
     let folder = tempfile::tempdir().unwrap();
     let scenario = file(folder.path(), "scenario.json", SMALL);
-    let solved = voltour(&["solve", &scenario, "--iterations", "10"], "");
+    let solved = voltour(&["solve", &scenario, "--solver", "greedy"], "");
     let output = voltour(&["explain", &scenario, "-", "--time-limit", "1s"], text(&solved.stdout));
     assert_eq!(code(&output), 0, "{}", text(&output.stderr));
     let told = text(&output.stdout);
