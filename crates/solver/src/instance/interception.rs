@@ -31,10 +31,10 @@ pub fn earliest(
     }
     let until = rows.len().min(missed + step - 1);
     let met = missed + rows[missed..until].partition_point(escapes);
-    let begin = match met {
-        met if met > passed => (rows[met - 1].time_s, rows[met - 1].position_m),
-        _ => (not_before_s, start),
-    };
+    let mut begin = (not_before_s, start);
+    if met > passed {
+        begin = (rows[met - 1].time_s, rows[met - 1].position_m);
+    }
     let Some(end) = rows.get(met) else {
         // At rest behind its last row, or before its only one.
         return (begin.0.max(leave_s + (begin.1 - from).norm() / speed_mps), begin.1);

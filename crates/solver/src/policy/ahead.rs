@@ -106,10 +106,6 @@ impl View<'_, '_> {
             .iter()
             .filter_map(|&p| self.tour.insertion(state.instance(), p, other.candidate));
         let cheapest = found.min_by(|a, b| a.effort.total_cmp(&b.effort));
-        // Where totals decide, the old place was the cheapest of all: while it is there, no other is legal if it is not.
-        if state.instance().untimed && old != position {
-            return cheapest;
-        }
         cheapest.or_else(|| self.tour.cheapest(state.instance(), other.candidate))
     }
 }

@@ -72,11 +72,7 @@ impl Tour {
         candidate: u32,
     ) -> Option<Insertion> {
         let (metres, seconds, joules) = if instance.untimed {
-            let (metres, seconds, joules) = self.longer(instance, position, candidate);
-            if !self.fits(instance, metres, seconds, joules) {
-                return None;
-            }
-            (metres, seconds, joules)
+            self.longer(instance, position, candidate)?
         } else if instance.moving {
             let run = instance.step(self.before(position), candidate);
             if !instance.in_time(&run) {
@@ -95,8 +91,8 @@ impl Tour {
         Some(Insertion { position, effort })
     }
 
-    /// [`Tour::insertion`], if it takes less than `most`. Where metres decide, limits are looked at only for
-    /// those.
+    /// [`Tour::insertion`], if it takes less than `most`. Where metres alone count, times are looked at only
+    /// for those.
     #[inline]
     pub fn insertion_below(
         &self,
@@ -106,12 +102,6 @@ impl Tour {
         most: f64,
     ) -> Option<Insertion> {
         let per = &instance.effort;
-        if instance.untimed {
-            let (metres, seconds, joules) = self.longer(instance, position, candidate);
-            let effort = per.per_m * metres + per.per_s * seconds + per.per_j * joules;
-            let better = effort < most && self.fits(instance, metres, seconds, joules);
-            return better.then_some(Insertion { position, effort });
-        }
         if per.per_s == 0.0
             && per.per_j == 0.0
             && !instance.moving
@@ -132,21 +122,21 @@ impl Tour {
     }
 
     /// Metres, seconds and joules more, where totals decide.
-    #[inline]
-    fn longer(&self, instance: &Instance<'_>, position: usize, candidate: u32) -> (f64, f64, f64) {
+    fn longer(
+        &self,
+        instance: &Instance<'_>,
+        position: usize,
+        candidate: u32,
+    ) -> Option<(f64, f64, f64)> {
         let charger = &instance.scenario.charger;
         let metres = self.detour_m(instance, position, candidate);
         let joules = instance.candidates[candidate as usize].charge_j(0.0);
-        (metres, metres / charger.speed_mps + joules / charger.transfer_w, joules)
-    }
-
-    /// Whether there is room for so much more, where totals decide.
-    #[inline]
-    fn fits(&self, instance: &Instance<'_>, metres: f64, seconds: f64, joules: f64) -> bool {
+        let seconds = metres / charger.speed_mps + joules / charger.transfer_w;
         let now = self.finished();
-        let energy_j =
-            instance.energy_j(now) + instance.scenario.charger.travel_jpm * metres + joules;
-        now.arrive_s + seconds <= instance.timespan_s && energy_j <= instance.capacity_j
+        let energy_j = instance.energy_j(now) + charger.travel_jpm * metres + joules;
+        let legal =
+            now.arrive_s + seconds <= instance.timespan_s && energy_j <= instance.capacity_j;
+        legal.then_some((metres, seconds, joules))
     }
 
     /// The same where nothing moves: the seconds by which the next stop is delayed.
@@ -175,10 +165,8 @@ impl Tour {
     }
 
     /// Positions before which a candidate can be put in time at all: the charger leaves those behind them too late.
+    /// Not where totals decide.
     pub fn in_time_until(&self, instance: &Instance<'_>, candidate: u32) -> usize {
-        if instance.untimed {
-            return self.len() + 1;
-        }
         let due_s = instance.candidates[candidate as usize].due_s;
         (0..=self.len()).take_while(|&p| self.before(p).depart_s <= due_s).count()
     }

@@ -63,8 +63,7 @@ impl Cost {
             Objective::MaxCount => partial.tour.len() as f64,
         };
         let spent = self.per_effort * effort(instance, partial.tour.finished());
-        let penalty = if partial.missing() == 0 { 0.0 } else { partial.penalty(&self.weight) };
-        spent - gains + penalty
+        spent - gains + partial.penalty(&self.weight)
     }
 
     /// What serving a candidate is worth beside its effort.

@@ -40,9 +40,6 @@ pub fn solve(
     let before = budget.iterations();
     let first = match effort {
         Effort::Whole => FIRST,
-        _ if instance.moving && instance.scenario.objective == Objective::MaxCount => {
-            FIRST_OF_COUNT
-        }
         Effort::Share => first_of_share(instance, start.len() as u64),
     };
     let mut order = improved(instance, start, first, rng, budget);
@@ -88,10 +85,9 @@ pub fn solve(
 /// over it does what the baseline alone would do.
 fn first_of_share(instance: &Instance<'_>, stops: u64) -> u64 {
     let first = FIRST + FIRST_PER_STOP_OF_SHARE * stops;
-    if instance.moving {
-        return first;
-    }
     let power = match instance.scenario.objective {
+        Objective::MaxCount if instance.moving => return FIRST_OF_COUNT,
+        _ if instance.moving => return first,
         Objective::MinDistance => stops.saturating_pow(3) / CUBED_STOPS_PER_FIRST,
         Objective::MaxReward => stops.saturating_pow(6) / SIXTH_POWERS_PER_FIRST,
         Objective::MaxCount => 0,
