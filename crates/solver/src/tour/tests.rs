@@ -2,7 +2,7 @@
 
 use proptest::prelude::*;
 
-use super::{Segment, Tour, simulate};
+use super::{Insertion, Segment, Tour, simulate};
 use crate::generate::{Reward, reward};
 use crate::instance::Instance;
 use crate::scenario::{Scenario, TravelDocument};
@@ -55,9 +55,9 @@ proptest! {
     fn where_totals_decide_the_shortest_place_is_the_cheapest(
         seed in 0..1_000_u64,
         stops in 0..6_usize,
-        ways in prop::option::of(prop::collection::vec(1.0..500.0, 14 * 14)),
+        ways in prop::option::of(prop::collection::vec(1.0..50.0, 14 * 14)),
     ) {
-        let options = Reward { sensors: 12, alpha: 1.0, capacity_j: 150_000.0, ..Reward::default() };
+        let options = Reward { sensors: 12, alpha: 1.0, capacity_j: 400_000.0, ..Reward::default() };
         let mut document = reward(&options, seed).unwrap();
         document.travel = ways.map(|ways| {
             let mut distance_m: Vec<Vec<f64>> = ways.chunks(14).map(<[f64]>::to_vec).collect();
@@ -72,7 +72,8 @@ proptest! {
         for candidate in stops as u32..instance.len() as u32 {
             let places = (0..=stops).filter_map(|p| tour.insertion(&instance, p, candidate));
             let cheapest = places.min_by(|a, b| a.effort.total_cmp(&b.effort));
-            prop_assert_eq!(tour.cheapest(&instance, candidate), cheapest);
+            let effort = |place: Option<Insertion>| place.map(|place| place.effort);
+            prop_assert_eq!(effort(tour.cheapest(&instance, candidate)), effort(cheapest));
         }
     }
 
