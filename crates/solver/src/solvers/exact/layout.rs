@@ -2,35 +2,43 @@
 
 use super::Model;
 use super::network::{leg_m, stand};
-use super::relaxation::{Graph, Relaxation, Resource, Way};
+use super::relaxation::{Graph, Reading, Relaxation, Resource, Way};
 use crate::tour::Run;
 
 impl Relaxation<'_> {
-    /// Halves the intervals. What is closed stays so: it was for everything later in its interval too.
+    /// Halves the intervals. What no tour may be in stays closed. What only no path may be in does not: paths over
+    /// finer intervals are later, and come where none of them was before.
     pub fn split(&mut self, model: &Model<'_>) {
         let n = model.len();
         self.intervals *= 2;
         self.width /= 2.0;
         self.ends = vec![f64::INFINITY; self.intervals * n];
-        let fresh = self.lay_out(model);
-        for graph in [&mut self.graph, &mut self.other] {
-            let before = std::mem::take(graph);
-            let layer = n * self.tally.states;
-            let place = |at: usize, size: usize| at / size / 2 * size + at % size;
-            graph.live = fresh.live.clone();
-            for (at, live) in graph.live.iter_mut().enumerate() {
-                *live &= before.live[place(at, layer)];
-            }
-            graph.first.push(0);
-            for at in 0..self.intervals * n {
-                let open = before.leaving(place(at, n));
-                let ways = fresh.leaving(at).iter();
-                graph.ways.extend(
-                    ways.filter(|way| open.binary_search_by_key(&way.arc, |way| way.arc).is_ok()),
-                );
-                graph.first.push(graph.ways.len());
-            }
+        let mut graph = self.lay_out(model);
+        let before = match self.reading {
+            Reading::Tours => &self.graph,
+            Reading::Paths => &self.other,
+        };
+        let layer = n * self.tally.states;
+        let place = |at: usize, size: usize| at / size / 2 * size + at % size;
+        for (at, live) in graph.live.iter_mut().enumerate() {
+            *live &= before.live[place(at, layer)];
         }
+        let fresh = std::mem::replace(&mut graph.first, vec![0]);
+        let mut kept = 0;
+        for at in 0..self.intervals * n {
+            let open = before.leaving(place(at, n));
+            for way in fresh[at]..fresh[at + 1] {
+                let way = graph.ways[way];
+                if open.binary_search_by_key(&way.arc, |way| way.arc).is_ok() {
+                    graph.ways[kept] = way;
+                    kept += 1;
+                }
+            }
+            graph.first.push(kept);
+        }
+        graph.ways.truncate(kept);
+        self.other = graph.clone();
+        self.graph = graph;
         self.value = vec![f64::INFINITY; self.intervals * self.offset[n]];
     }
 

@@ -28,6 +28,8 @@ mod quick;
 #[cfg(test)]
 mod quick_tests;
 mod relaxation;
+#[cfg(test)]
+mod relaxation_tests;
 mod search;
 mod solve;
 mod spanning;
