@@ -1,19 +1,21 @@
 //! Reduced cost fixing: arcs that no path uses whose cost beats the cutoff are closed for good.
 
+use super::prices::Prices;
 use super::relaxation::{Reading, Relaxation, Resource};
 use super::turns::Turn;
 
 impl Relaxation<'_> {
     /// Closes, in every interval, the arcs over which the least cost of a path is `most` or more. The
-    /// values must be those of these prizes.
-    pub fn fix(&mut self, prizes: &[f64], most: f64) {
+    /// values must be those of these prices.
+    pub fn fix(&mut self, prices: &Prices, most: f64) {
         let network = self.network;
-        let (n, total) = (prizes.len(), self.offset[prizes.len()]);
+        let n = self.offset.len() - 1;
+        let total = self.offset[n];
         let mut reached = vec![f64::INFINITY; self.intervals * total];
         for (a, &b) in network.leaving(n).zip(&self.starts) {
             let to = network.arcs[a].to;
             let state = self.states(b as usize, to, self.tally.after(0, to));
-            reached[state] = network.arcs[a].cost - prizes[to as usize];
+            reached[state] = prices.of(&network.arcs[a]);
         }
         let mut begun = Begun::default();
         let mut kept = 0;
@@ -25,7 +27,8 @@ impl Relaxation<'_> {
                 own.iter_mut().zip(before).for_each(|(own, before)| *own = own.min(*before));
             }
             // Paths that stay within an interval are followed until none of them gets cheaper.
-            for _pass in 0..n.max(1) {
+            let passes = if self.within { n } else { 0 };
+            for _pass in 0..passes {
                 let mut again = false;
                 for i in 0..n {
                     if self.begin(b, i, most, &reached, &mut begun) {
@@ -38,7 +41,7 @@ impl Relaxation<'_> {
             }
             for i in 0..n {
                 self.begin(b, i, most, &reached, &mut begun);
-                kept = self.close(b, i, most, &begun, kept);
+                kept = self.close(b, i, most, &begun, &mut reached, kept);
             }
         }
         self.graph.first[self.intervals * n] = kept;
@@ -94,8 +97,17 @@ impl Relaxation<'_> {
     }
 
     /// Closes a candidate's states that nothing begins and its ways that lead to no path that costs less than
-    /// `most`. The ways kept so far, over all candidates, are the first `kept`; how many they are then.
-    fn close(&mut self, b: usize, i: usize, most: f64, begun: &Begun, mut kept: usize) -> usize {
+    /// `most`, and carries the costs over the others. The ways kept so far, over all candidates, are the first
+    /// `kept`; how many they are then.
+    fn close(
+        &mut self,
+        b: usize,
+        i: usize,
+        most: f64,
+        begun: &Begun,
+        reached: &mut [f64],
+        mut kept: usize,
+    ) -> usize {
         let (n, tallies) = (self.offset.len() - 1, self.tally.states);
         let place = b * n + i;
         let live = &mut self.graph.live[place * tallies..(place + 1) * tallies];
@@ -111,7 +123,9 @@ impl Relaxation<'_> {
             let turn = &self.turns.all[first + way.arc as usize];
             let mut least = f64::INFINITY;
             self.over(i, way.next as usize, turn, begun, |begun, ahead| {
-                let through = begun + turn.cost + self.value[ahead];
+                let (begun, known) = (begun + turn.cost, reached[ahead]);
+                reached[ahead] = if begun < known { begun } else { known };
+                let through = begun + self.value[ahead];
                 least = if through < least { through } else { least };
             });
             if least < most {
@@ -132,15 +146,11 @@ impl Relaxation<'_> {
         begun: &Begun,
         mut each: impl FnMut(f64, usize),
     ) {
-        let group = &self.turns.groups(i)[usize::from(turn.group)];
-        let layer = next * self.offset[self.offset.len() - 1] + turn.states as usize;
-        let next_masks = self.turns.next_masks(turn, group);
+        let layer = next * self.offset[self.offset.len() - 1];
         let states = begun.slots.chunks_exact(self.turns.slots(i)).zip(&begun.any);
         for (tally, (slots, _)) in states.enumerate().filter(|(_, (_, any))| **any) {
-            let ahead = layer + (self.tally.after(tally, turn.to) << turn.near);
-            for (&begun, &next_mask) in slots[group.first as usize..].iter().zip(next_masks) {
-                each(begun, ahead + next_mask as usize);
-            }
+            let ahead = layer + turn.counted(self.tally.after(tally, turn.to));
+            self.turns.each_head(turn, |slot, head| each(slots[slot], ahead + head));
         }
     }
 }

@@ -8,6 +8,9 @@ use super::relaxation::Resource;
 /// Layers of time or energy at first.
 pub const INTERVALS: usize = 96;
 const INTERVALS_OF_FEW: usize = 64;
+/// Of energy, whose price makes up for what rounding gives away.
+const INTERVALS_OF_ENERGY: usize = 64;
+const FINER_OF_ENERGY: f64 = 2.0;
 /// So many times as many where that makes every arc lead into a later one.
 const FINER: f64 = 3.0;
 const FINER_OF_FEW: f64 = 6.0;
@@ -43,7 +46,19 @@ pub fn layers(
     let charger = &instance.scenario.charger;
     match resource {
         Resource::Stops => (model.len().max(1), 0.0),
-        Resource::Energy => (INTERVALS, instance.capacity_j.max(1e-9)),
+        Resource::Energy => {
+            let horizon = instance.capacity_j.max(1e-9);
+            let arcs = &network.arcs[..network.leaving(model.len()).start];
+            let least_j = arcs.iter().map(|arc| arc.energy_j).fold(f64::INFINITY, f64::min);
+            let fine = (horizon / least_j).ceil();
+            if std::env::var("TRACE").is_ok() {
+                eprintln!("fine {fine}");
+            }
+            if fine <= FINER_OF_ENERGY * INTERVALS_OF_ENERGY as f64 {
+                return ((fine as usize + 1).max(INTERVALS_OF_ENERGY), horizon);
+            }
+            (INTERVALS_OF_ENERGY, horizon)
+        }
         Resource::Time => {
             let reachable = (0..model.len()).filter(|&i| network.earliest_s[i].is_finite());
             let due = reachable.map(|i| instance.candidates[i].due_s).fold(0.0, f64::max);

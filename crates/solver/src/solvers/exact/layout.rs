@@ -52,6 +52,7 @@ impl Relaxation<'_> {
             ways: Vec::new(),
             live: vec![false; self.intervals * n * tallies],
         };
+        self.within = false;
         let start = instance.departure();
         let home = instance.finish(&start);
         if home.arrive_s <= instance.timespan_s && instance.energy_j(&home) <= instance.capacity_j {
@@ -75,7 +76,8 @@ impl Relaxation<'_> {
                     graph.live[(b * n + i) * tallies..(b * n + i + 1) * tallies].fill(true);
                     self.ends[b * n + i] = self.end(model, &run, spent_j);
                     for (arc, a) in self.network.leaving(i).enumerate() {
-                        if let Some(next) = self.arrival(model, i, a, b, &run, spent_j) {
+                        if let Some(next) = self.arrival(model, a, b, &run, spent_j) {
+                            self.within |= usize::from(next) == b;
                             graph.ways.push(Way { arc: arc as u16, next });
                         }
                     }
@@ -135,25 +137,29 @@ impl Relaxation<'_> {
     fn arrival(
         &self,
         model: &Model<'_>,
-        from: usize,
         arc: usize,
         b: usize,
         run: &Run,
         spent_j: f64,
     ) -> Option<u16> {
         let instance = &model.wide;
-        let to = self.network.arcs[arc].to;
-        let next = instance.step(run, to);
-        if !instance.in_time(&next) || next.depart_s > instance.timespan_s {
+        let arc = &self.network.arcs[arc];
+        let candidate = &instance.candidates[arc.to as usize];
+        let arrive_s = if instance.moving {
+            instance.step(run, arc.to).arrive_s
+        } else {
+            candidate.ready_s.max(run.depart_s + arc.leg_s)
+        };
+        let charge_s = candidate.charge_j(arrive_s) / instance.scenario.charger.transfer_w;
+        if arrive_s > candidate.due_s || arrive_s + charge_s > instance.timespan_s {
             return None;
         }
-        let leg_j = instance.scenario.charger.travel_jpm * leg_m(instance, from, to as usize);
-        let energy_j = spent_j + leg_j + self.network.charge_j[to as usize];
+        let energy_j = spent_j + arc.energy_j;
         if energy_j > instance.capacity_j {
             return None;
         }
         match self.resource {
-            Resource::Time => Some(self.interval(next.arrive_s).max(b) as u16),
+            Resource::Time => Some(self.interval(arrive_s).max(b) as u16),
             Resource::Energy => Some(self.interval(energy_j).max(b) as u16),
             Resource::Stops => (b + 1 < self.intervals).then_some(b as u16 + 1),
         }

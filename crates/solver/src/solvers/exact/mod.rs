@@ -22,6 +22,7 @@ mod model;
 mod multipliers;
 mod network;
 mod places;
+mod prices;
 mod pricing;
 mod prove;
 mod quick;

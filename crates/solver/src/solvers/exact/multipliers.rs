@@ -1,7 +1,13 @@
 //! Lagrangian multipliers: demands and "at most once" move from the paths into prizes.
 
 use super::Model;
+use super::prices::Prices;
 use super::relaxation::Relaxation;
+
+/// Share of the way to the target that the first step of an ascent takes, as the slope is.
+const FIRST_STEP: f64 = 0.7;
+/// Mean charges whose energy weighs as much as a visit: fewer, and the price of energy swings.
+const CHARGES_PER_VISIT: f64 = 6.0;
 
 /// Prizes that make relaxed paths serve what must be served, once each, and the bound that they prove.
 #[derive(Clone, Debug)]
@@ -10,8 +16,12 @@ pub struct Multipliers {
     demand: Vec<f64>,
     /// By candidate, what a visit is charged; not negative.
     visit: Vec<f64>,
-    /// By candidate, what a visit takes off the cost.
-    pub prizes: Vec<f64>,
+    /// What a joule is charged; not negative.
+    energy: f64,
+    /// What all the energy that the charger has is worth.
+    limit: f64,
+    /// What paths pay for all this.
+    pub prices: Prices,
     /// What does not depend on the path.
     pub constant: f64,
     /// The bound on the cost of every feasible tour.
@@ -24,7 +34,9 @@ impl Multipliers {
         let mut zero = Self {
             demand: vec![0.0; model.demands.len()],
             visit: vec![0.0; model.len()],
-            prizes: Vec::new(),
+            energy: 0.0,
+            limit: 0.0,
+            prices: Prices::default(),
             constant: 0.0,
             bound: f64::NEG_INFINITY,
         };
@@ -34,15 +46,17 @@ impl Multipliers {
 
     fn price(&mut self, model: &Model<'_>) {
         let of = |i: usize| model.of[i].iter().map(|&d| self.demand[d as usize]).sum::<f64>();
-        self.prizes = (0..model.len()).map(|i| model.gains[i] + of(i) - self.visit[i]).collect();
+        let prize = |i: usize| model.gains[i] + of(i) - self.visit[i];
+        self.prices = Prices { prizes: (0..model.len()).map(prize).collect(), per_j: self.energy };
         let needs = model.demands.iter().zip(&self.demand).map(|(d, m)| f64::from(d.needs) * m);
-        self.constant = needs.sum::<f64>() - self.visit.iter().sum::<f64>();
+        self.limit = if self.energy > 0.0 { self.energy * model.wide.capacity_j } else { 0.0 };
+        self.constant = needs.sum::<f64>() - self.visit.iter().sum::<f64>() - self.limit;
     }
 
     /// How far rounding may have moved the bound.
     pub fn rounding(&self) -> f64 {
         let sum: f64 = self.demand.iter().chain(&self.visit).sum();
-        1e-12 * (1.0 + sum + self.constant.abs())
+        1e-12 * (1.0 + sum + self.limit + self.constant.abs())
     }
 }
 
@@ -52,7 +66,10 @@ pub struct Ascent {
     /// The best multipliers so far.
     pub best: Multipliers,
     at: Multipliers,
+    /// Of the demands, the visits and the energy.
     direction: Vec<f64>,
+    /// Joules that weigh as much as a visit; none if energy has no price.
+    unit_j: Option<f64>,
     step: f64,
     stalled: u32,
     /// By demand, how far paths are from its needs on average, the later ones weighing more.
@@ -62,13 +79,18 @@ pub struct Ascent {
 }
 
 impl Ascent {
-    pub fn new(model: &Model<'_>) -> Self {
+    /// Without multipliers. Where energy layers the paths it has a price too, so that what they gain where their
+    /// amounts are rounded down is paid for.
+    pub fn new(model: &Model<'_>, layered_by_energy: bool) -> Self {
+        let charges_j = model.wide.candidates.iter().map(|c| c.charge_j(0.0));
+        let unit_j = CHARGES_PER_VISIT * charges_j.sum::<f64>() / model.len().max(1) as f64;
         let zero = Multipliers::zero(model);
         Self {
             best: zero.clone(),
             at: zero,
-            direction: vec![0.0; model.demands.len() + model.len()],
-            step: 1.0,
+            direction: vec![0.0; model.demands.len() + model.len() + 1],
+            unit_j: layered_by_energy.then_some(unit_j).filter(|unit_j| *unit_j > 0.0),
+            step: FIRST_STEP,
             stalled: 0,
             misses: vec![0.0; model.demands.len()],
             counted: vec![false; model.demands.len()],
@@ -115,6 +137,9 @@ impl Ascent {
         for &i in &order {
             self.at.visit[i] = (model.gains[i] - price * takes[i]).max(0.0);
         }
+        if self.unit_j.is_some() {
+            self.at.energy = price;
+        }
         self.at.price(model);
         self.best = self.at.clone();
     }
@@ -147,9 +172,9 @@ impl Ascent {
     /// One evaluation and one step towards `target`, a cost that some tour has or may have. Whether the path
     /// proves that no further step helps.
     pub fn climb(&mut self, model: &Model<'_>, paths: &mut Relaxation<'_>, target: f64) -> bool {
-        let value = paths.evaluate(&self.at.prizes);
+        let value = paths.evaluate(&self.at.prices);
         self.at.bound = self.at.constant + value - self.at.rounding();
-        let path = paths.path(&self.at.prizes);
+        let path = paths.path(&self.at.prices);
         if self.at.bound > self.best.bound {
             let gained = self.at.bound - self.best.bound;
             if gained > 1e-4 * (target - self.at.bound).abs() {
@@ -162,14 +187,15 @@ impl Ascent {
         if value == f64::INFINITY || self.best.bound >= target {
             return true;
         }
-        if self.stalled >= 4 {
+        if self.stalled >= 2 {
             self.stalled = 0;
             self.step *= 0.7;
         }
-        self.go(model, &path, target)
+        let energy_j = if self.unit_j.is_some() { paths.energy_j(model, &path) } else { 0.0 };
+        self.go(model, &path, energy_j, target)
     }
 
-    fn go(&mut self, model: &Model<'_>, path: &[u32], target: f64) -> bool {
+    fn go(&mut self, model: &Model<'_>, path: &[u32], energy_j: f64, target: f64) -> bool {
         let m = model.demands.len();
         let mut slope: Vec<f64> = model.demands.iter().map(|d| f64::from(d.needs)).collect();
         slope.extend(std::iter::repeat_n(-1.0, model.len()));
@@ -185,7 +211,8 @@ impl Ascent {
                 slope[d] = 0.0;
             }
         }
-        let multipliers = self.at.demand.iter().chain(&self.at.visit);
+        slope.push(self.unit_j.map_or(0.0, |unit| (energy_j - model.wide.capacity_j) / unit));
+        let multipliers = self.at.demand.iter().chain(&self.at.visit).chain([&self.at.energy]);
         // A multiplier at zero that would fall stays where it is.
         for (slope, &multiplier) in slope.iter_mut().zip(multipliers) {
             if multiplier <= 0.0 && *slope < 0.0 {
@@ -204,6 +231,10 @@ impl Ascent {
         let (demand, visit) = (&mut self.at.demand, &mut self.at.visit);
         for (multiplier, direction) in demand.iter_mut().chain(visit).zip(&self.direction) {
             *multiplier = (*multiplier + step * direction).max(0.0);
+        }
+        if let Some(unit_j) = self.unit_j {
+            let direction = self.direction[self.direction.len() - 1];
+            self.at.energy = (self.at.energy + step * direction / unit_j).max(0.0);
         }
         self.at.price(model);
         false

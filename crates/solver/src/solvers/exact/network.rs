@@ -11,6 +11,10 @@ pub struct Arc {
     pub to: u32,
     /// What travelling it costs at least.
     pub cost: f64,
+    /// How long travelling it takes, in seconds; where nothing moves.
+    pub leg_s: f64,
+    /// Energy that travelling it and the charge at its end take at least, in joules.
+    pub energy_j: f64,
 }
 
 /// The arcs between candidates that some feasible tour may use.
@@ -26,6 +30,8 @@ pub struct Network {
     pub charge_j: Vec<f64>,
     /// By candidate, energy spent once it is charged, at least, in joules.
     pub energy_j: Vec<f64>,
+    /// By candidate, and last the start: energy that the way to the end takes at least, in joules.
+    pub home_j: Vec<f64>,
 }
 
 impl Network {
@@ -37,12 +43,18 @@ impl Network {
             (0..n).map(|i| instance.candidates[i].charge_j(earliest_s[i].min(1e300))).collect();
         let energy_j = least_energy(model, &charge_j);
         let tail_j = tail_energy(model, &charge_j);
-        let mut network = Self { first: vec![0], arcs: Vec::new(), earliest_s, charge_j, energy_j };
+        let per_m = instance.scenario.charger.travel_jpm;
+        let home_j = (0..=n).map(|from| per_m * leg_m(instance, from, instance.end())).collect();
+        let mut network =
+            Self { first: vec![0], arcs: Vec::new(), earliest_s, charge_j, energy_j, home_j };
         for from in 0..=n {
             for to in 0..n {
                 if from != to && network.allows(model, from, to, &tail_j) {
-                    let cost = if model.length_counts { leg_m(instance, from, to) } else { 0.0 };
-                    network.arcs.push(Arc { to: to as u32, cost });
+                    let leg_m = leg_m(instance, from, to);
+                    let cost = if model.length_counts { leg_m } else { 0.0 };
+                    let energy_j = per_m * leg_m + network.charge_j[to];
+                    let leg_s = leg_m / instance.scenario.charger.speed_mps;
+                    network.arcs.push(Arc { to: to as u32, cost, leg_s, energy_j });
                 }
             }
             network.first.push(network.arcs.len());

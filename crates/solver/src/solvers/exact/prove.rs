@@ -43,7 +43,8 @@ const SHARES: [(u32, usize); 3] = [(4, 200_000), (2, 1_000_000), (1, 3_000_000)]
 const MOST_MOVING_ARCS_OF_SHARE: usize = 500_000;
 /// Steps of the ascent in the first round and in later ones.
 const FIRST_STEPS: u32 = 30;
-const FIRST_STEPS_OF_FEW: u32 = 20;
+const FIRST_STEPS_OF_FEW: u32 = 12;
+const FIRST_STEPS_OF_ENERGY: u32 = 14;
 const STEPS: u32 = 15;
 /// So many more in the first round of few, if as many gained this share of what is open.
 const MORE_STEPS: u32 = 8;
@@ -72,7 +73,13 @@ const MOST_INTERVALS_OF_GAIN: usize = 800;
 /// Neighbours that every candidate remembers from the beginning; where candidates are few, paths that
 /// remember more cost less than a second round.
 const FIRST_MEMORY: usize = 2;
+/// Before that they remember fewer, for a few steps of the ascent.
+const NARROWING_MEMORY: usize = 1;
+const NARROWING_STEPS: u32 = 3;
+/// Steps of a round after which arcs are closed.
+const EARLY: u32 = 2;
 const FIRST_MEMORY_OF_FEW: usize = 4;
+const FIRST_MEMORY_OF_ENERGY: usize = 3;
 /// Combinations of counts that the states of paths may take.
 const MOST_TALLY: usize = 128;
 /// Beyond this many candidates a bound without paths is taken first.
@@ -128,6 +135,7 @@ fn quickly(model: &Model<'_>, incumbent: &Incumbent, known: f64) -> Proof {
 
 struct Prover<'p, 'a, 'b> {
     model: &'p Model<'a>,
+    network: &'p Network,
     paths: Relaxation<'p>,
     effort: Effort,
     incumbent: &'p mut Incumbent,
@@ -147,10 +155,9 @@ impl<'p, 'a, 'b> Prover<'p, 'a, 'b> {
         let resource = resource(model);
         let (intervals, horizon) = layers(model, network, incumbent, resource);
         let near = |a: usize, b: usize| apart_m(model, a, b);
-        let size = if few(model) { FIRST_MEMORY_OF_FEW } else { FIRST_MEMORY };
-        let memory = Memory::nearest(network, near, size);
+        let memory = Memory::nearest(network, near, NARROWING_MEMORY);
         let paths = Relaxation::new(model, network, resource, intervals, horizon, memory);
-        Self { model, paths, effort, incumbent, rng, budget }
+        Self { model, network, paths, effort, incumbent, rng, budget }
     }
 
     /// Proves on from a bound that is known.
@@ -163,6 +170,9 @@ impl<'p, 'a, 'b> Prover<'p, 'a, 'b> {
             }
         }
         let mut ascent = self.begin();
+        if self.narrow(&mut ascent) {
+            return self.closed();
+        }
         let most_labels = MOST_LABEL_BYTES / Search::<W>::LABEL_BYTES;
         let mut labels = FIRST_LABELS;
         for round in 0..rounds {
@@ -187,6 +197,33 @@ impl<'p, 'a, 'b> Prover<'p, 'a, 'b> {
         self.left_open(bound)
     }
 
+    /// Closes most arcs under bounds that cost little, of paths that remember little. Whether
+    /// that is the proof.
+    fn narrow(&mut self, ascent: &mut Ascent) -> bool {
+        let target = target(self.model, self.incumbent, ascent);
+        for _ in 0..NARROWING_STEPS {
+            if !self.budget.spend() || ascent.climb(self.model, &mut self.paths, target) {
+                break;
+            }
+        }
+        if ascent.best.bound >= self.incumbent.cutoff() {
+            return true;
+        }
+        self.paths.read(Reading::Tours);
+        self.fix(&ascent.best);
+        self.paths.close_to_paths();
+        let near = |a: usize, b: usize| apart_m(self.model, a, b);
+        let size = match self.paths.resource() {
+            _ if few(self.model) => FIRST_MEMORY_OF_FEW,
+            Resource::Energy => FIRST_MEMORY_OF_ENERGY,
+            _ => FIRST_MEMORY,
+        };
+        let memory = Memory::nearest(self.network, near, size);
+        let tally = self.paths.tally().clone();
+        self.paths.refine(memory, tally);
+        false
+    }
+
     /// Raises the bound, closes arcs, searches.
     fn round<const W: usize>(&mut self, ascent: &mut Ascent, round: u32, labels: usize) -> End {
         self.paths.read(Reading::Paths);
@@ -196,6 +233,7 @@ impl<'p, 'a, 'b> Prover<'p, 'a, 'b> {
         let target = target(model, self.incumbent, ascent);
         let steps = match round {
             0 if few(model) => FIRST_STEPS_OF_FEW,
+            0 if self.paths.resource() == Resource::Energy => FIRST_STEPS_OF_ENERGY,
             0 => FIRST_STEPS,
             _ => STEPS,
         };
@@ -210,7 +248,7 @@ impl<'p, 'a, 'b> Prover<'p, 'a, 'b> {
             if step + MORE_STEPS == steps {
                 known = ascent.best.bound;
             }
-            if step == 2 {
+            if step == EARLY {
                 // What is closed early makes every further step cheaper.
                 self.fix(&ascent.best);
             }
@@ -241,8 +279,8 @@ impl<'p, 'a, 'b> Prover<'p, 'a, 'b> {
 
     fn fix(&mut self, multipliers: &Multipliers) {
         let most = self.incumbent.cutoff() - multipliers.constant + multipliers.rounding();
-        self.paths.evaluate(&multipliers.prizes);
-        self.paths.fix(&multipliers.prizes, most);
+        self.paths.evaluate(&multipliers.prices);
+        self.paths.fix(&multipliers.prices, most);
     }
 
     fn search<const W: usize>(&mut self, ascent: &Ascent, labels: usize) -> End {
@@ -252,7 +290,8 @@ impl<'p, 'a, 'b> Prover<'p, 'a, 'b> {
 
     fn begin(&self) -> Ascent {
         let model = self.model;
-        let mut ascent = Ascent::new(model);
+        let layered_by_energy = self.paths.resource() == Resource::Energy;
+        let mut ascent = Ascent::new(model, layered_by_energy);
         if let Some(order) =
             self.incumbent.order.as_ref().filter(|_| model.length_counts && !model.wide.moving)
         {
@@ -296,7 +335,7 @@ impl<'p, 'a, 'b> Prover<'p, 'a, 'b> {
     fn refine(&mut self, ascent: &mut Ascent, most: usize) {
         self.paths.read(Reading::Paths);
         self.fix(&ascent.best);
-        let path = self.paths.path(&ascent.best.prizes);
+        let path = self.paths.path(&ascent.best.prices);
         let mut memory = self.paths.memory().clone();
         learn(&mut memory, &path, most);
         if self.late(&path) && self.may_split() {

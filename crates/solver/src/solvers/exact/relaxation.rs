@@ -8,6 +8,7 @@
 use super::Model;
 use super::memory::Memory;
 use super::network::Network;
+use super::prices::Prices;
 use super::tally::Tally;
 use super::turns::{Turn, Turns};
 
@@ -65,6 +66,8 @@ pub struct Relaxation<'n> {
     pub(super) resource: Resource,
     pub(super) intervals: usize,
     pub(super) width: f64,
+    /// Whether some arc may stay within an interval.
+    pub(super) within: bool,
     pub(super) memory: Memory,
     pub(super) tally: Tally,
     /// By candidate, where its states begin in a layer; last, their number. Within a candidate, masks run
@@ -84,6 +87,8 @@ pub struct Relaxation<'n> {
     pub(super) empty: f64,
     /// What each arc means for the states at its ends.
     pub(super) turns: Turns,
+    /// By candidate, and last the start: what the energy of the way to the end costs.
+    home: Vec<f64>,
     /// By interval and state, the least cost of going on.
     pub(super) value: Vec<f64>,
     /// Values of one candidate while they are computed, and of its slots.
@@ -112,6 +117,7 @@ impl<'n> Relaxation<'n> {
             resource,
             intervals,
             width,
+            within: false,
             memory: Memory { of: Vec::new() },
             tally: Tally::new(model, Vec::new()),
             offset: Vec::new(),
@@ -122,6 +128,7 @@ impl<'n> Relaxation<'n> {
             starts: Vec::new(),
             empty: f64::INFINITY,
             turns: Turns::default(),
+            home: Vec::new(),
             value: Vec::new(),
             scratch: (Vec::new(), Vec::new()),
             followed: Vec::new(),
@@ -138,6 +145,15 @@ impl<'n> Relaxation<'n> {
             std::mem::swap(&mut self.graph, &mut self.other);
             self.reading = reading;
         }
+    }
+
+    /// Closes to paths whatever no tour may be in, too.
+    pub fn close_to_paths(&mut self) {
+        let (tours, paths) = match self.reading {
+            Reading::Tours => (&self.graph, &mut self.other),
+            Reading::Paths => (&self.other, &mut self.graph),
+        };
+        paths.clone_from(tours);
     }
 
     /// Number of values that a memory and a tally ask for.
@@ -194,12 +210,15 @@ impl<'n> Relaxation<'n> {
         ((amount * (1.0 - 1e-12) / self.width) as usize).min(self.intervals - 1)
     }
 
-    /// Values of all states for these prizes; the least cost of a path from start to end.
-    pub fn evaluate(&mut self, prizes: &[f64]) -> f64 {
-        let (n, total) = (prizes.len(), self.offset[prizes.len()]);
+    /// Values of all states for these prices; the least cost of a path from start to end.
+    pub fn evaluate(&mut self, prices: &Prices) -> f64 {
+        let n = self.offset.len() - 1;
+        let total = self.offset[n];
         for (turn, arc) in self.turns.all.iter_mut().zip(&self.network.arcs) {
-            turn.cost = arc.cost - prizes[arc.to as usize];
+            turn.cost = prices.of(arc);
         }
+        self.home.clear();
+        self.home.extend(self.network.home_j.iter().map(|home_j| prices.per_j * home_j));
         for b in (0..self.intervals).rev() {
             self.value[b * total..(b + 1) * total].fill(f64::INFINITY);
             // Paths that stay within an interval are followed until none of them gets cheaper.
@@ -215,7 +234,7 @@ impl<'n> Relaxation<'n> {
                 }
             }
         }
-        self.first_arc(prizes).map_or(self.empty(), |(value, ..)| value.min(self.empty()))
+        self.first_arc(prices).map_or(self.empty(), |(value, ..)| value.min(self.empty()))
     }
 
     /// States of the tally that are open at a candidate.
@@ -245,7 +264,7 @@ impl<'n> Relaxation<'n> {
         let mut followed = std::mem::take(&mut self.followed);
         best.clear();
         best.resize(masks * self.tally.states, f64::INFINITY);
-        best[masks * self.tally.met()..].fill(self.ends[b * n + i]);
+        best[masks * self.tally.met()..].fill(self.ends[b * n + i] + self.home[i]);
         let groups = self.turns.groups(i);
         let width = self.turns.slots(i);
         slots.clear();
@@ -257,19 +276,15 @@ impl<'n> Relaxation<'n> {
         for (next, turn) in self.ways(b, i) {
             within |= next == b;
             followed[usize::from(turn.group)] = true;
-            let group = &groups[usize::from(turn.group)];
-            let states = next * total + turn.states as usize;
-            let next_masks = self.turns.next_masks(turn, group);
             for state in (0..self.tally.states).filter(|&state| live[state]) {
-                let states = states + (self.tally.after(state, turn.to) << turn.near);
-                let ahead = &self.value[states..states + (1 << turn.near)];
-                let first = state * width + group.first as usize;
+                let counted = turn.counted(self.tally.after(state, turn.to));
+                let ahead = &self.value[next * total + counted..(next + 1) * total];
+                let slots = &mut slots[state * width..(state + 1) * width];
                 // Without branches on the values, which follow no pattern.
-                let slots = &mut slots[first..first + next_masks.len()];
-                for (best, &next_mask) in slots.iter_mut().zip(next_masks) {
-                    let value = turn.cost + ahead[next_mask as usize];
-                    *best = if value < *best { value } else { *best };
-                }
+                self.turns.each_head(turn, |slot, head| {
+                    let value = turn.cost + ahead[head];
+                    slots[slot] = if value < slots[slot] { value } else { slots[slot] };
+                });
             }
         }
         for (group, _) in groups.iter().zip(&followed).filter(|(_, followed)| **followed) {
@@ -301,7 +316,8 @@ impl<'n> Relaxation<'n> {
 
     /// What the tour without stops costs; infinite if it may not be made.
     fn empty(&self) -> f64 {
-        if self.tally.met() == 0 { self.empty } else { f64::INFINITY }
+        let home = self.home[self.home.len() - 1];
+        if self.tally.met() == 0 { self.empty + home } else { f64::INFINITY }
     }
 
     /// Where the values of a candidate begin.
@@ -312,20 +328,21 @@ impl<'n> Relaxation<'n> {
     }
 
     /// The best first arc: cost to the end, interval and candidate.
-    fn first_arc(&self, prizes: &[f64]) -> Option<(f64, usize, u32)> {
-        let firsts = self.network.leaving(prizes.len()).zip(&self.starts).map(|(a, &b)| {
-            let (arc, b) = (self.network.arcs[a], b as usize);
-            let value = self.value[self.states(b, arc.to, self.tally.after(0, arc.to))];
-            (arc.cost - prizes[arc.to as usize] + value, b, arc.to)
-        });
+    fn first_arc(&self, prices: &Prices) -> Option<(f64, usize, u32)> {
+        let firsts =
+            self.network.leaving(self.offset.len() - 1).zip(&self.starts).map(|(a, &b)| {
+                let (arc, b) = (self.network.arcs[a], b as usize);
+                let value = self.value[self.states(b, arc.to, self.tally.after(0, arc.to))];
+                (prices.of(&arc) + value, b, arc.to)
+            });
         firsts.min_by(|a, b| a.0.total_cmp(&b.0))
     }
 
     /// The candidates of a cheapest path of the last evaluation, in order.
-    pub fn path(&self, prizes: &[f64]) -> Vec<u32> {
-        let n = prizes.len();
+    pub fn path(&self, prices: &Prices) -> Vec<u32> {
+        let n = self.offset.len() - 1;
         let mut path = Vec::new();
-        let Some((value, mut b, mut at)) = self.first_arc(prizes) else { return path };
+        let Some((value, mut b, mut at)) = self.first_arc(prices) else { return path };
         if value >= self.empty() || value == f64::INFINITY {
             return path;
         }
@@ -333,15 +350,18 @@ impl<'n> Relaxation<'n> {
         loop {
             path.push(at);
             let i = at as usize;
-            let end = if tally == self.tally.met() { self.ends[b * n + i] } else { f64::INFINITY };
+            let met = tally == self.tally.met();
+            let end = if met { self.ends[b * n + i] + self.home[i] } else { f64::INFINITY };
             let mut best = (end, None);
             for (next, turn) in self.ways(b, i) {
                 let group = &self.turns.groups(i)[usize::from(turn.group)];
-                let Some(ahead) = self.turns.next_mask(turn, group, mask) else { continue };
+                let Some(head) = self.turns.head(turn, group, mask) else { continue };
                 let counted = self.tally.after(tally, turn.to);
-                let value = turn.cost + self.value[self.states(next, turn.to, counted) + ahead];
+                let ahead = next * self.offset[n] + head + turn.counted(counted);
+                let value = turn.cost + self.value[ahead];
                 if value < best.0 {
-                    best = (value, Some((next, turn.to, ahead, counted)));
+                    let mask = head - self.offset[turn.to as usize];
+                    best = (value, Some((next, turn.to, mask, counted)));
                 }
             }
             match best.1 {
@@ -350,6 +370,19 @@ impl<'n> Relaxation<'n> {
                 _ => return path,
             }
         }
+    }
+
+    /// The energy that a path takes at least, in joules, home again.
+    pub fn energy_j(&self, model: &Model<'_>, path: &[u32]) -> f64 {
+        let mut here = model.len();
+        let mut energy_j = 0.0;
+        for &next in path {
+            let arcs = &self.network.arcs[self.network.leaving(here)];
+            let arc = arcs.iter().find(|arc| arc.to == next);
+            energy_j += arc.map_or(0.0, |arc| arc.energy_j);
+            here = next as usize;
+        }
+        energy_j + self.network.home_j[here]
     }
 
     /// The candidates to which ways are open from one that is charged at this amount.

@@ -38,7 +38,7 @@ fn bounds_stay_below(document: &Document, intervals: usize) -> bool {
         return false;
     }
     let mut paths = Relaxation::new(&model, &network, resource, intervals, horizon, memory);
-    let mut ascent = Ascent::new(&model);
+    let mut ascent = Ascent::new(&model, resource == Resource::Energy);
     for _ in 0..4 {
         paths.read(Reading::Paths);
         ascent.restart();
@@ -50,9 +50,9 @@ fn bounds_stay_below(document: &Document, intervals: usize) -> bool {
         }
         for reading in [Reading::Tours, Reading::Paths] {
             paths.read(reading);
-            paths.evaluate(&ascent.best.prizes);
+            paths.evaluate(&ascent.best.prices);
             let most = above - ascent.best.constant + ascent.best.rounding();
-            paths.fix(&ascent.best.prizes, most);
+            paths.fix(&ascent.best.prices, most);
         }
         if resource == Resource::Stops {
             break;

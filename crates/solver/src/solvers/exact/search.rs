@@ -215,14 +215,15 @@ impl<'s, 'a, const W: usize> Search<'s, 'a, W> {
         let mut served = label.served;
         served.insert(to);
         let gain = label.gain + model.gains[to as usize];
-        let reduced =
-            label.reduced - self.multipliers.prizes[to as usize] + model.gains[to as usize];
+        let prices = &self.multipliers.prices;
+        let reduced = label.reduced - prices.prizes[to as usize] + model.gains[to as usize];
         let amount = self.amount(&run);
         let stops = label.stops + 1;
         let tally = self.paths.tally().after(label.tally as usize, to);
         let ahead = self.paths.go_on(to, amount, stops as usize, tally, |c| served.contains(c));
-        let bound =
-            model.cost(run.distance_m, gain) + reduced + ahead - self.multipliers.rounding();
+        let energy = prices.per_j * model.wide.energy_j(&run);
+        let bound = model.cost(run.distance_m, gain) + energy + reduced + ahead
+            - self.multipliers.rounding();
         let bound = bound.max(entry.bound);
         if bound >= self.incumbent.cutoff() {
             return;

@@ -12,14 +12,32 @@ pub struct Turn {
     /// What it costs, less the prize at its head.
     pub cost: f64,
     pub to: u32,
-    /// Where the states of its head begin in a layer.
-    pub states: u32,
-    /// Where the masks to which its slots lead begin.
-    masks: u32,
+    /// The state of a layer that its first slot leads to, before anything is counted.
+    head: u32,
+    /// Where the states that its slots lead to begin.
+    heads: u32,
+    /// Its first slot among those of its tail.
+    slot: u32,
+    /// How many slots lead on.
+    slots: u16,
     /// Its group among those that leave its tail.
     pub group: u16,
     /// How many neighbours its head remembers.
-    pub near: u16,
+    near: u16,
+}
+
+impl Turn {
+    /// Its slots among those of its tail.
+    #[inline]
+    pub fn slots(&self) -> std::ops::Range<usize> {
+        self.slot as usize..self.slot as usize + usize::from(self.slots)
+    }
+
+    /// By how much the states of its head lie further on where the tally is in this state.
+    #[inline]
+    pub fn counted(&self, tally: usize) -> usize {
+        tally << self.near
+    }
 }
 
 /// The arcs from one candidate whose heads remember the same of what it does.
@@ -46,8 +64,8 @@ pub struct Turns {
     groups: Vec<Group>,
     /// By group and mask, its slot.
     fold: Vec<u16>,
-    /// By arc and slot, the mask at its end.
-    next_mask: Vec<u16>,
+    /// By arc and slot, the state at its end, before anything is counted.
+    heads: Vec<u32>,
 }
 
 impl Turns {
@@ -72,23 +90,27 @@ impl Turns {
                     turns.add_group(from, near.len(), back, kept);
                     kinds.len() - 1
                 });
-                turns.all.push(Turn {
-                    cost: 0.0,
-                    to: arc.to,
-                    states: offset[arc.to as usize] as u32,
-                    masks: turns.next_mask.len() as u32,
-                    group: group as u16,
-                    near: ahead.len() as u16,
-                });
                 let own = bit(ahead.binary_search(&(from as u32)));
                 let held: Vec<usize> = near
                     .iter()
                     .map(|other| bit(ahead.binary_search(other)))
                     .filter(|bit| *bit > 0)
                     .collect();
+                let state = offset[arc.to as usize] + own;
+                let Group { first, slots, .. } = turns.groups[turns.first[from] + group];
+                turns.all.push(Turn {
+                    cost: 0.0,
+                    to: arc.to,
+                    head: state as u32,
+                    heads: turns.heads.len() as u32,
+                    slot: first,
+                    slots: slots as u16,
+                    group: group as u16,
+                    near: ahead.len() as u16,
+                });
                 for slot in 0..1_usize << held.len() {
                     let bits = held.iter().enumerate().filter(|(k, _)| slot >> k & 1 == 1);
-                    turns.next_mask.push(bits.fold(own, |next, (_, bit)| next | bit) as u16);
+                    turns.heads.push(bits.fold(state, |state, (_, bit)| state + bit) as u32);
                 }
             }
             turns.first.push(turns.groups.len());
@@ -129,15 +151,23 @@ impl Turns {
         &self.fold[group.fold as usize..group.fold as usize + masks]
     }
 
-    /// By slot, the mask at the end of an arc of this group.
+    /// Calls with each slot of an arc and the state of a layer that it leads to, before anything is counted.
     #[inline]
-    pub fn next_masks(&self, turn: &Turn, group: &Group) -> &[u16] {
-        &self.next_mask[turn.masks as usize..(turn.masks + group.slots) as usize]
+    pub fn each_head(&self, turn: &Turn, mut each: impl FnMut(usize, usize)) {
+        // Most heads remember nothing of what their tails do.
+        if turn.slots == 1 {
+            return each(turn.slot as usize, turn.head as usize);
+        }
+        let heads = &self.heads[turn.heads as usize..turn.heads as usize + turn.slots as usize];
+        for (slot, &head) in turn.slots().zip(heads) {
+            each(slot, head as usize);
+        }
     }
 
-    /// The mask at the end of an arc; none if the mask at its tail remembers its head.
-    pub fn next_mask(&self, turn: &Turn, group: &Group, mask: usize) -> Option<usize> {
-        let slot = self.fold[group.fold as usize + mask];
-        self.next_masks(turn, group).get(usize::from(slot)).map(|&mask| usize::from(mask))
+    /// The state at the end of an arc, before anything is counted; none if the mask at its tail remembers its head.
+    pub fn head(&self, turn: &Turn, group: &Group, mask: usize) -> Option<usize> {
+        let slot = usize::from(self.fold[group.fold as usize + mask]);
+        let leads = slot < usize::from(turn.slots);
+        leads.then(|| self.heads[turn.heads as usize + slot] as usize)
     }
 }
