@@ -40,6 +40,10 @@ pub struct Instance<'a> {
     pub capacity_j: f64,
     /// What a solver spends sparingly.
     pub effort: Effort,
+    /// Seconds that a metre takes. Searches multiply by it: a division takes several times as long.
+    pub travel_spm: f64,
+    /// Seconds that delivering a joule takes.
+    pub transfer_spj: f64,
     /// Some candidate moves: only forward simulation is right.
     pub moving: bool,
     /// Distances are Euclidean between places at rest: leaving a stop out never breaks a limit.
@@ -126,6 +130,8 @@ impl<'a> Instance<'a> {
             timespan_s,
             capacity_j: charger.capacity_j.map_or(f64::INFINITY, solver_limit),
             effort: Self::scarce(scenario),
+            travel_spm: 1.0 / charger.speed_mps,
+            transfer_spj: 1.0 / charger.transfer_w,
             moving,
             metric: !moving && scenario.travel.is_none(),
             segments: !moving && affine_energy && !candidates.iter().any(saturates),
@@ -214,20 +220,20 @@ impl<'a> Instance<'a> {
     // it is compiled into them, and the chase of a moving sensor is left outside.
     #[inline(always)]
     pub fn step(&self, run: &Run, to: u32) -> Run {
-        let speed = self.scenario.charger.speed_mps;
         let candidate = &self.candidates[to as usize];
         let (arrive_s, leg_m, place) = if self.moving {
             self.meet(run, candidate)
         } else {
             let leg_m = self.distance_m(run.node as usize, to as usize);
-            (candidate.ready_s.max(run.depart_s + leg_m / speed), leg_m, candidate.point)
+            let arrive_s = run.depart_s + leg_m * self.travel_spm;
+            (candidate.ready_s.max(arrive_s), leg_m, candidate.point)
         };
         let charge_j = candidate.charge_j(arrive_s);
         Run {
             node: to,
             place,
             arrive_s,
-            depart_s: arrive_s + charge_j / self.scenario.charger.transfer_w,
+            depart_s: arrive_s + charge_j * self.transfer_spj,
             distance_m: run.distance_m + leg_m,
             charge_j: run.charge_j + charge_j,
         }
@@ -259,7 +265,7 @@ impl<'a> Instance<'a> {
         } else {
             self.distance_m(run.node as usize, self.end())
         };
-        let arrive_s = run.depart_s + leg_m / self.scenario.charger.speed_mps;
+        let arrive_s = run.depart_s + leg_m * self.travel_spm;
         Run {
             node: self.end() as u32,
             place: self.scenario.charger.end_m,

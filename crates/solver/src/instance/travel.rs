@@ -48,6 +48,15 @@ impl Travel {
         }
     }
 
+    /// The distances from a place to all, where they are tabled.
+    #[inline]
+    pub fn row_m(&self, from: usize) -> Option<&[f64]> {
+        match self {
+            Self::Dense { size, distance_m } => Some(&distance_m[from * size..(from + 1) * size]),
+            Self::Points(_) => None,
+        }
+    }
+
     /// Whether every distance between candidates is the same both ways.
     pub(super) fn is_symmetric(&self) -> bool {
         let Self::Dense { size, .. } = self else { return true };

@@ -106,6 +106,10 @@ impl View<'_, '_> {
             .iter()
             .filter_map(|&p| self.tour.insertion(state.instance(), p, other.candidate));
         let cheapest = found.min_by(|a, b| a.effort.total_cmp(&b.effort));
+        // Where totals decide and the way to its old place is as it was, no other is shorter.
+        if state.instance().untimed && old != position {
+            return cheapest;
+        }
         cheapest.or_else(|| self.tour.cheapest(state.instance(), other.candidate))
     }
 }

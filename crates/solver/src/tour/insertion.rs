@@ -51,7 +51,7 @@ impl Tour {
             let metres = edges(stops) - edges(&self.order()[from..until]);
             let mut end = *self.finished();
             end.distance_m += metres;
-            end.arrive_s += metres / instance.scenario.charger.speed_mps;
+            end.arrive_s += metres * instance.travel_spm;
             return instance.keeps_limits(&end).then_some(end);
         }
         let mut run = *self.before(from);
@@ -131,7 +131,7 @@ impl Tour {
         let charger = &instance.scenario.charger;
         let metres = self.detour_m(instance, position, candidate);
         let joules = instance.candidates[candidate as usize].charge_j(0.0);
-        let seconds = metres / charger.speed_mps + joules / charger.transfer_w;
+        let seconds = metres * instance.travel_spm + joules * instance.transfer_spj;
         let now = self.finished();
         let energy_j = instance.energy_j(now) + charger.travel_jpm * metres + joules;
         let legal =
@@ -153,7 +153,7 @@ impl Tour {
         }
         let next = self.place(instance, position);
         let leg_m = instance.distance_m(candidate as usize, next);
-        let reach_s = run.depart_s + leg_m / instance.scenario.charger.speed_mps;
+        let reach_s = run.depart_s + leg_m * instance.travel_spm;
         if reach_s > self.latest(position) {
             return None;
         }
@@ -180,19 +180,37 @@ impl Tour {
         mut overlooked: impl FnMut() -> bool,
     ) -> Option<Insertion> {
         let via = candidate as usize;
-        let mut best: Option<(usize, f64)> = None;
+        // Most time of a search is spent here: what can be looked up once is.
+        let position = match instance.travel.row_m(via) {
+            Some(row_m) => self.least_detour(instance, via, |to| row_m[to], &mut overlooked),
+            None => {
+                let on_m = |to| instance.distance_m(via, to);
+                self.least_detour(instance, via, on_m, &mut overlooked)
+            }
+        };
+        self.insertion(instance, position?, candidate)
+    }
+
+    #[inline]
+    fn least_detour(
+        &self,
+        instance: &Instance<'_>,
+        via: usize,
+        on_m: impl Fn(usize) -> f64,
+        overlooked: &mut impl FnMut() -> bool,
+    ) -> Option<usize> {
+        let (mut best, mut least_m) = (None, f64::INFINITY);
         let mut into_m = instance.distance_m(instance.start(), via);
-        for (position, &leg_m) in self.legs_m().iter().enumerate() {
-            let to = self.place(instance, position);
-            let on_m = instance.distance_m(via, to);
+        let places = self.order().iter().map(|&to| to as usize).chain([instance.end()]);
+        for (position, (to, &leg_m)) in places.zip(self.legs_m()).enumerate() {
+            let on_m = on_m(to);
             let metres = into_m + on_m - leg_m;
-            if best.is_none_or(|(_, least_m)| metres < least_m) && !overlooked() {
-                best = Some((position, metres));
+            if metres < least_m && !overlooked() {
+                (best, least_m) = (Some(position), metres);
             }
             into_m = if instance.symmetric { on_m } else { instance.distance_m(to, via) };
         }
-        let (position, _) = best?;
-        self.insertion(instance, position, candidate)
+        best
     }
 
     /// The cheapest legal place of a candidate among all, the first among equals.

@@ -32,10 +32,9 @@ impl Segment {
     #[inline]
     pub fn stop(instance: &Instance<'_>, node: u32) -> Self {
         let candidate = &instance.candidates[node as usize];
-        let transfer_w = instance.scenario.charger.transfer_w;
         let charge = candidate.target_j - candidate.residual_j;
-        let slope = 1.0 + candidate.drain_w / transfer_w;
-        let offset = charge / transfer_w;
+        let slope = 1.0 + candidate.drain_w * instance.transfer_spj;
+        let offset = charge * instance.transfer_spj;
         Self {
             first: node,
             last: node,
@@ -68,7 +67,7 @@ impl Segment {
     #[inline]
     pub fn then(&self, instance: &Instance<'_>, next: &Self) -> Self {
         let leg_m = instance.distance_m(self.last as usize, next.first as usize);
-        let leg_s = leg_m / instance.scenario.charger.speed_mps;
+        let leg_s = leg_m * instance.travel_spm;
         let reached = self.offset + leg_s;
         let latest_s = if self.floor + leg_s > next.latest_s {
             f64::NEG_INFINITY
@@ -91,7 +90,7 @@ impl Segment {
     /// The charger after the run, if it comes from `run` and every deadline holds.
     pub fn after(&self, instance: &Instance<'_>, run: &Run) -> Option<Run> {
         let leg_m = instance.distance_m(run.node as usize, self.first as usize);
-        let reach_s = run.depart_s + leg_m / instance.scenario.charger.speed_mps;
+        let reach_s = run.depart_s + leg_m * instance.travel_spm;
         let depart_s = self.floor.max(self.offset + self.slope * reach_s);
         (reach_s <= self.latest_s).then_some(Run {
             node: self.last,

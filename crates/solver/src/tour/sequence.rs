@@ -188,7 +188,7 @@ impl Tour {
         let last_m = instance.distance_m(here, instance.end());
         self.legs_m.push(last_m);
         distance_m += last_m;
-        let arrive_s = distance_m / charger.speed_mps + charge_j / charger.transfer_w;
+        let arrive_s = distance_m * instance.travel_spm + charge_j * instance.transfer_spj;
         let end = Run {
             node: instance.end() as u32,
             place: charger.end_m,
@@ -271,15 +271,14 @@ impl Tour {
 /// The latest moment to get to `here` if one must get to `next` by `limit_s`: the inverse of the
 /// departure, which rises strictly with the arrival.
 fn latest_start(instance: &Instance<'_>, here: u32, next: usize, limit_s: f64) -> f64 {
-    let charger = &instance.scenario.charger;
     let candidate = &instance.candidates[here as usize];
-    let leave_s = limit_s - instance.distance_m(here as usize, next) / charger.speed_mps;
-    let needed_s = (candidate.target_j - candidate.residual_j) / charger.transfer_w;
-    let draining = (leave_s - needed_s) / (1.0 + candidate.drain_w / charger.transfer_w);
+    let leave_s = limit_s - instance.distance_m(here as usize, next) * instance.travel_spm;
+    let needed_s = (candidate.target_j - candidate.residual_j) * instance.transfer_spj;
+    let draining = (leave_s - needed_s) / (1.0 + candidate.drain_w * instance.transfer_spj);
     let begin = if draining <= candidate.empty_s() {
         draining
     } else {
-        leave_s - candidate.target_j / charger.transfer_w
+        leave_s - candidate.target_j * instance.transfer_spj
     };
     if begin < candidate.ready_s { f64::NEG_INFINITY } else { begin.min(candidate.due_s) }
 }

@@ -47,15 +47,14 @@ impl Tour {
 
     /// The visit of a candidate put before `position`.
     pub(crate) fn visit(&self, instance: &Instance<'_>, position: usize, candidate: u32) -> Visit {
-        let speed = instance.scenario.charger.speed_mps;
         if instance.untimed {
             let detour_m = self.detour_m(instance, position, candidate);
             let charge_j = instance.candidates[candidate as usize].charge_j(0.0);
-            let delay_s = detour_m / speed + charge_j / instance.scenario.charger.transfer_w;
+            let delay_s = detour_m * instance.travel_spm + charge_j * instance.transfer_spj;
             let from = self.place_before(instance, position);
             return Visit {
                 detour_m,
-                leg_s: instance.distance_m(from, candidate as usize) / speed,
+                leg_s: instance.distance_m(from, candidate as usize) * instance.travel_spm,
                 slack_s: instance.timespan_s - self.finished().arrive_s - delay_s,
                 delay_s,
             };
@@ -75,7 +74,8 @@ impl Tour {
             };
         }
         let next = self.place(instance, position);
-        let reach_s = run.depart_s + instance.distance_m(candidate as usize, next) / speed;
+        let leg_m = instance.distance_m(candidate as usize, next);
+        let reach_s = run.depart_s + leg_m * instance.travel_spm;
         Visit {
             detour_m: self.detour_m(instance, position, candidate),
             leg_s,

@@ -9,6 +9,9 @@ use cpu_time::ThreadTime;
 use voltour_solver::instance::Instance;
 use voltour_solver::plan::Status;
 use voltour_solver::solvers::{Options, SolverName, solve_compiled};
+use voltour_solver::stop::Limit;
+
+use super::method::wall;
 
 /// The reference of a scenario.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,8 +54,12 @@ impl Optima {
             return Ok(known);
         }
         let begin = ThreadTime::now();
-        let stop =
-            |done: u64| done.is_multiple_of(16) && begin.elapsed().as_secs_f64() > self.limit_s;
+        let wall = wall();
+        let stop = Limit::new(
+            self.limit_s,
+            || begin.elapsed().as_secs_f64(),
+            || wall.elapsed().as_secs_f64(),
+        );
         let options = Options { solver: SolverName::Exact, seed: 0, stop: &stop, policy: None };
         // The exact solver is part of every version.
         let solved = solve_compiled(instance, &options).map_err(io::Error::other)?;

@@ -176,13 +176,14 @@ impl<'a, 'b> Search<'a, 'b> {
             };
             let mut trial = current.clone();
             let mut current_cost = self.cost.of(&self.instance, &current);
+            let cools = (cold / hot).powf(1.0 / length as f64);
+            let mut heat = self.cost.scale * hot;
             for i in 0..length {
-                let share = i as f64 / length as f64;
-                let heat = self.cost.scale * hot * (cold / hot).powf(share);
                 trial.clone_from(&current);
                 self.change(&mut trial);
                 let trial_cost = self.cost.of(&self.instance, &trial);
                 let luck = -heat * self.rng.random_range(1e-12..1.0_f64).ln();
+                heat *= cools;
                 if trial.tour.is_legal() && trial_cost < current_cost + luck {
                     std::mem::swap(&mut current, &mut trial);
                     current_cost = trial_cost;

@@ -150,7 +150,7 @@ impl Relaxation<'_> {
         } else {
             candidate.ready_s.max(run.depart_s + arc.leg_s)
         };
-        let charge_s = candidate.charge_j(arrive_s) / instance.scenario.charger.transfer_w;
+        let charge_s = candidate.charge_j(arrive_s) * instance.transfer_spj;
         if arrive_s > candidate.due_s || arrive_s + charge_s > instance.timespan_s {
             return None;
         }

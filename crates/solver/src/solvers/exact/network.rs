@@ -53,7 +53,7 @@ impl Network {
                     let leg_m = leg_m(instance, from, to);
                     let cost = if model.length_counts { leg_m } else { 0.0 };
                     let energy_j = per_m * leg_m + network.charge_j[to];
-                    let leg_s = leg_m / instance.scenario.charger.speed_mps;
+                    let leg_s = leg_m * instance.travel_spm;
                     network.arcs.push(Arc { to: to as u32, cost, leg_s, energy_j });
                 }
             }
@@ -112,7 +112,7 @@ pub fn stand(instance: &Instance<'_>, candidate: usize, arrive_s: f64) -> Run {
         node: candidate as u32,
         place: if instance.moving { place } else { c.point },
         arrive_s,
-        depart_s: arrive_s + charge_j / scenario.charger.transfer_w,
+        depart_s: arrive_s + charge_j * instance.transfer_spj,
         distance_m: 0.0,
         charge_j,
     }

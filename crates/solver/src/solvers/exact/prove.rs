@@ -60,6 +60,10 @@ const ITERATIONS_OF_LONG_PROOF: u64 = 3;
 const MOST_ITERATIONS_OF_LONG_PROOF: u64 = 100_000;
 const LABELS_PER_MOVING_ITERATION: usize = 500;
 const MOST_ITERATIONS: u64 = 20_000;
+/// In a share where gains count, so many before the first bound: the more arcs, the longer it takes and the less it
+/// shows.
+const SQUARED_ARCS_PER_ITERATION: u64 = 4_000;
+const MOST_ITERATIONS_OF_ARCS: u64 = 14_000;
 /// Where the first bound leaves this share of the incumbent open, some iterations come before the search: few
 /// labels are worth following under a better incumbent.
 const WIDE_GAP: f64 = 0.15;
@@ -116,6 +120,15 @@ pub fn prove(
     if rounds == 0 {
         return quickly(model, incumbent, known);
     }
+    if effort == Effort::Share && !model.length_counts && !model.wide.moving {
+        let arcs = network.arcs.len() as u64;
+        let iterations = (arcs * arcs / SQUARED_ARCS_PER_ITERATION).min(MOST_ITERATIONS_OF_ARCS);
+        let stops = incumbent.order.as_ref().map_or(0, Vec::len) as u64;
+        improve(model, baseline::whole_runs(stops, iterations), incumbent, rng, budget);
+        if incumbent.suffices() || budget.is_spent() {
+            return quickly(model, incumbent, known);
+        }
+    }
     let prover = Prover::new(model, &network, effort, incumbent, rng, budget);
     match words {
         0..=1 => prover.prove::<1>(rounds, known),
@@ -131,6 +144,21 @@ fn quickly(model: &Model<'_>, incumbent: &Incumbent, known: f64) -> Proof {
     let closed = bound == f64::INFINITY || bound >= incumbent.cutoff() && incumbent.order.is_some();
     let bound = bound.min(incumbent.cost).min(incumbent.beyond);
     Proof { order: incumbent.order.clone(), bound, closed }
+}
+
+/// Searches on from the incumbent.
+fn improve(
+    model: &Model<'_>,
+    iterations: u64,
+    incumbent: &mut Incumbent,
+    rng: &mut Pcg64Mcg,
+    budget: &mut Budget<'_>,
+) {
+    let start = incumbent.order.clone().unwrap_or_default();
+    let search =
+        |part: &mut Budget<'_>| baseline::search(model.strict, &start, Some(iterations), rng, part);
+    let found = budget.part(0, iterations, search);
+    incumbent.offer(model, found.order);
 }
 
 struct Prover<'p, 'a, 'b> {
@@ -400,12 +428,7 @@ impl<'p, 'a, 'b> Prover<'p, 'a, 'b> {
 
     /// Lets the baseline improve the incumbent.
     fn improve(&mut self, iterations: u64) {
-        let start = self.incumbent.order.clone().unwrap_or_default();
-        let (strict, rng) = (self.model.strict, &mut *self.rng);
-        let search =
-            |part: &mut Budget<'_>| baseline::search(strict, &start, Some(iterations), rng, part);
-        let found = self.budget.part(0, iterations, search);
-        self.incumbent.offer(self.model, found.order);
+        improve(self.model, iterations, self.incumbent, self.rng, self.budget);
     }
 
     fn closed(&self) -> Proof {

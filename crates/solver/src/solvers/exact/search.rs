@@ -261,7 +261,7 @@ impl<'s, 'a, const W: usize> Search<'s, 'a, W> {
     fn may_be_in_time(&self, run: &Run, to: u32) -> bool {
         let instance = &self.model.wide;
         let way_m = instance.distance_m(run.node as usize, to as usize);
-        let arrive_s = run.depart_s + way_m / instance.scenario.charger.speed_mps;
+        let arrive_s = run.depart_s + way_m * instance.travel_spm;
         arrive_s <= instance.candidates[to as usize].due_s
     }
 

@@ -116,7 +116,7 @@ impl Timetable {
     fn job(&self, model: &Model<'_>, run: &Run, candidate: u32) -> Job {
         let c = &model.wide.candidates[candidate as usize];
         // Charged later, it takes no less.
-        let charge_s = c.charge_j(run.depart_s) / model.wide.scenario.charger.transfer_w;
+        let charge_s = c.charge_j(run.depart_s) * model.wide.transfer_spj;
         let takes_s = self.way_s[candidate as usize] + charge_s;
         let by_s = (c.due_s + charge_s) * (1.0 + 1e-12) + 1e-6;
         Job { candidate, takes_s, by_s, slack_s: 0.0 }
