@@ -27,6 +27,13 @@ impl<'a> Budget<'a> {
         !self.stopped
     }
 
+    /// Asks the rule once more without counting an iteration; whether the search may go on. For steps that take long,
+    /// which end where they are.
+    pub fn lasts(&mut self) -> bool {
+        self.stopped = self.stopped || self.stop.should_stop(self.iterations);
+        !self.stopped
+    }
+
     /// Forgets the iterations after the first so many, of a search whose outcome is thrown away. Where the rule
     /// has said stop, that stands.
     pub fn take_back(&mut self, to: u64) {

@@ -3,11 +3,14 @@
 use super::prices::Prices;
 use super::relaxation::{Reading, Relaxation, Resource};
 use super::turns::Turn;
+use crate::solvers::Budget;
 
 impl Relaxation<'_> {
     /// Closes, in every interval, the arcs over which the least cost of a path is `most` or more. The
-    /// values must be those of these prices.
-    pub fn fix(&mut self, prices: &Prices, most: f64) {
+    /// values must be those of these prices. Whether the budget lasted: if not, nothing more may be asked of these
+    /// paths.
+    #[must_use]
+    pub fn fix(&mut self, prices: &Prices, most: f64, budget: &mut Budget<'_>) -> bool {
         let network = self.network;
         let n = self.offset.len() - 1;
         let total = self.offset[n];
@@ -20,6 +23,9 @@ impl Relaxation<'_> {
         let mut begun = Begun::default();
         let mut kept = 0;
         for b in 0..self.intervals {
+            if !budget.lasts() {
+                return false;
+            }
             // A path is rounded down at every stop: a tour may be later than its path, never earlier.
             if b > 0 && self.reading == Reading::Tours && self.resource != Resource::Stops {
                 let (before, own) = reached.split_at_mut(b * total);
@@ -46,6 +52,7 @@ impl Relaxation<'_> {
         }
         self.graph.first[self.intervals * n] = kept;
         self.graph.ways.truncate(kept);
+        true
     }
 
     /// What it costs to be in each state of a candidate, infinite where going on from there leads to no path

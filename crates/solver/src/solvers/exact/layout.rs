@@ -3,17 +3,20 @@
 use super::Model;
 use super::network::{leg_m, stand};
 use super::relaxation::{Graph, Reading, Relaxation, Resource, Way};
+use crate::solvers::Budget;
 use crate::tour::Run;
 
 impl Relaxation<'_> {
     /// Halves the intervals. What no tour may be in stays closed. What only no path may be in does not: paths over
-    /// finer intervals are later, and come where none of them was before.
-    pub fn split(&mut self, model: &Model<'_>) {
+    /// finer intervals are later, and come where none of them was before. Whether the budget lasted: if not, nothing
+    /// more may be asked of these paths.
+    #[must_use]
+    pub fn split(&mut self, model: &Model<'_>, budget: &mut Budget<'_>) -> bool {
         let n = model.len();
         self.intervals *= 2;
         self.width /= 2.0;
         self.ends = vec![f64::INFINITY; self.intervals * n];
-        let mut graph = self.lay_out(model);
+        let Some(mut graph) = self.lay_out(model, budget) else { return false };
         let before = match self.reading {
             Reading::Tours => &self.graph,
             Reading::Paths => &self.other,
@@ -40,10 +43,11 @@ impl Relaxation<'_> {
         self.other = graph.clone();
         self.graph = graph;
         self.value = vec![f64::INFINITY; self.intervals * self.offset[n]];
+        true
     }
 
-    /// Every arc and state that the limits allow; where a tour may begin and end.
-    pub(super) fn lay_out(&mut self, model: &Model<'_>) -> Graph {
+    /// Every arc and state that the limits allow; where a tour may begin and end. None if the budget ends before.
+    pub(super) fn lay_out(&mut self, model: &Model<'_>, budget: &mut Budget<'_>) -> Option<Graph> {
         let instance = &model.wide;
         let n = model.len();
         let tallies = self.tally.states;
@@ -71,6 +75,9 @@ impl Relaxation<'_> {
         });
         self.starts = firsts.collect();
         for b in 0..self.intervals {
+            if !budget.lasts() {
+                return None;
+            }
             for i in 0..n {
                 if let Some((run, spent_j)) = self.stay(model, b, i) {
                     graph.live[(b * n + i) * tallies..(b * n + i + 1) * tallies].fill(true);
@@ -85,7 +92,7 @@ impl Relaxation<'_> {
                 graph.first.push(graph.ways.len());
             }
         }
-        graph
+        Some(graph)
     }
 
     /// The charger at a candidate as early as the interval lets it be, and the energy spent by then; none if

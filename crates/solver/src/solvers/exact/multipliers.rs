@@ -3,6 +3,7 @@
 use super::Model;
 use super::prices::Prices;
 use super::relaxation::Relaxation;
+use crate::solvers::Budget;
 
 /// Share of the way to the target that the first step of an ascent takes, as the slope is.
 const FIRST_STEP: f64 = 0.7;
@@ -169,10 +170,16 @@ impl Ascent {
         self.stalled = 0;
     }
 
-    /// One evaluation and one step towards `target`, a cost that some tour has or may have. Whether the path
-    /// proves that no further step helps.
-    pub fn climb(&mut self, model: &Model<'_>, paths: &mut Relaxation<'_>, target: f64) -> bool {
-        let value = paths.evaluate(&self.at.prices);
+    /// One evaluation and one step towards `target`, a cost that some tour has or may have. Whether it was the last:
+    /// the path proves that no further step helps, or the budget is spent.
+    pub fn climb(
+        &mut self,
+        model: &Model<'_>,
+        paths: &mut Relaxation<'_>,
+        target: f64,
+        budget: &mut Budget<'_>,
+    ) -> bool {
+        let Some(value) = paths.evaluate(&self.at.prices, budget) else { return true };
         self.at.bound = self.at.constant + value - self.at.rounding();
         let path = paths.path(&self.at.prices);
         if self.at.bound > self.best.bound {

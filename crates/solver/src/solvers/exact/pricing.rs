@@ -6,6 +6,7 @@
 //! section finds a good one.
 
 use super::moats::{Watched, grow};
+use super::quick::Care;
 use super::{Model, Places};
 
 /// Nearest others along which moats are watched.
@@ -28,7 +29,7 @@ struct Scarce {
 }
 
 /// No tour gains more.
-pub fn most_gain(model: &Model<'_>, places: &Places, incumbent_gain: f64) -> f64 {
+pub fn most_gain(model: &Model<'_>, places: &Places, incumbent_gain: f64, care: Care) -> f64 {
     let instance = &model.wide;
     let charger = &instance.scenario.charger;
     let gains: Vec<f64> = places.open.iter().map(|&i| model.gains[i as usize]).collect();
@@ -44,7 +45,7 @@ pub fn most_gain(model: &Model<'_>, places: &Places, incumbent_gain: f64) -> f64
     let mut market = Market { places, watched: watched(model, places), gains };
     for scarce in [energy, time] {
         if scarce.limit.is_finite() && most > 0.0 {
-            most = most.min(market.best(&scarce, incumbent_gain));
+            most = most.min(market.best(&scarce, incumbent_gain, care));
         }
     }
     most
@@ -104,7 +105,7 @@ struct Market<'p> {
 
 impl Market<'_> {
     /// The bound at a good price.
-    fn best(&mut self, scarce: &Scarce, incumbent_gain: f64) -> f64 {
+    fn best(&mut self, scarce: &Scarce, incumbent_gain: f64, care: Care) -> f64 {
         let all: f64 = self.gains.iter().sum();
         let limit = scarce.limit.max(1e-9);
         let known = if incumbent_gain > 0.0 { incumbent_gain } else { 0.5 * all };
@@ -112,7 +113,10 @@ impl Market<'_> {
         let middle = (known / limit).ln();
         let (mut low, mut high) = (middle - 2.5, middle + 0.8);
         let golden = 0.5 * (5.0_f64.sqrt() - 1.0);
-        let prices = (WORK / self.gains.len().max(1)).clamp(LEAST_PRICES, MOST_PRICES);
+        let prices = match care {
+            Care::Whole => (WORK / self.gains.len().max(1)).clamp(LEAST_PRICES, MOST_PRICES),
+            Care::Little => LEAST_PRICES,
+        };
         let mut value = |log: f64| self.gain(scarce, log.exp(), false);
         let (mut a, mut b) = (high - golden * (high - low), low + golden * (high - low));
         let (mut at_a, mut at_b) = (value(a), value(b));

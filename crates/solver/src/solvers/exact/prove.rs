@@ -9,7 +9,7 @@ use super::memory::Memory;
 use super::model::{Aim, Model};
 use super::multipliers::{Ascent, Multipliers};
 use super::network::Network;
-use super::quick::quick;
+use super::quick::{Care, quick};
 use super::relaxation::{Reading, Relaxation, Resource};
 use super::search::{End, Search};
 use super::tally::Tally;
@@ -109,7 +109,7 @@ pub fn prove(
     }
     let words = model.len().max(model.demands.len()).div_ceil(64);
     if budget.is_spent() || words > 8 || model.len() * model.len() * INTERVALS > MOST_ARRIVALS {
-        return quickly(model, incumbent, known);
+        return quickly(model, incumbent, known, budget.is_spent());
     }
     let network = Network::new(model);
     let arrivals = network.arcs.len() * INTERVALS;
@@ -118,7 +118,7 @@ pub fn prove(
         SHARES.iter().find(|share| arrivals <= share.1.min(most)).map_or(0, |share| share.0);
     let rounds = if effort == Effort::Whole { ROUNDS } else { share };
     if rounds == 0 {
-        return quickly(model, incumbent, known);
+        return quickly(model, incumbent, known, budget.is_spent());
     }
     if effort == Effort::Share && !model.length_counts && !model.wide.moving {
         let arcs = network.arcs.len() as u64;
@@ -126,10 +126,16 @@ pub fn prove(
         let stops = incumbent.order.as_ref().map_or(0, Vec::len) as u64;
         improve(model, baseline::whole_runs(stops, iterations), incumbent, rng, budget);
         if incumbent.suffices() || budget.is_spent() {
-            return quickly(model, incumbent, known);
+            return quickly(model, incumbent, known, budget.is_spent());
         }
     }
-    let prover = Prover::new(model, &network, effort, incumbent, rng, budget);
+    let resource = resource(model);
+    let (intervals, horizon) = layers(model, &network, incumbent, resource);
+    let near = |a: usize, b: usize| apart_m(model, a, b);
+    let memory = Memory::nearest(&network, near, NARROWING_MEMORY);
+    let paths = Relaxation::new(model, &network, resource, intervals, horizon, memory, budget);
+    let Some(paths) = paths else { return quickly(model, incumbent, known, true) };
+    let prover = Prover { model, network: &network, paths, effort, incumbent, rng, budget };
     match words {
         0..=1 => prover.prove::<1>(rounds, known),
         2 => prover.prove::<2>(rounds, known),
@@ -139,8 +145,9 @@ pub fn prove(
 }
 
 /// What is known without relaxed paths.
-fn quickly(model: &Model<'_>, incumbent: &Incumbent, known: f64) -> Proof {
-    let bound = quick(model, incumbent.cost).max(known);
+fn quickly(model: &Model<'_>, incumbent: &Incumbent, known: f64, is_spent: bool) -> Proof {
+    let care = if is_spent { Care::Little } else { Care::Whole };
+    let bound = quick(model, incumbent.cost, care).max(known);
     let closed = bound == f64::INFINITY || bound >= incumbent.cutoff() && incumbent.order.is_some();
     let bound = bound.min(incumbent.cost).min(incumbent.beyond);
     Proof { order: incumbent.order.clone(), bound, closed }
@@ -171,35 +178,23 @@ struct Prover<'p, 'a, 'b> {
     budget: &'p mut Budget<'b>,
 }
 
-impl<'p, 'a, 'b> Prover<'p, 'a, 'b> {
-    fn new(
-        model: &'p Model<'a>,
-        network: &'p Network,
-        effort: Effort,
-        incumbent: &'p mut Incumbent,
-        rng: &'p mut Pcg64Mcg,
-        budget: &'p mut Budget<'b>,
-    ) -> Self {
-        let resource = resource(model);
-        let (intervals, horizon) = layers(model, network, incumbent, resource);
-        let near = |a: usize, b: usize| apart_m(model, a, b);
-        let memory = Memory::nearest(network, near, NARROWING_MEMORY);
-        let paths = Relaxation::new(model, network, resource, intervals, horizon, memory);
-        Self { model, network, paths, effort, incumbent, rng, budget }
-    }
-
+impl Prover<'_, '_, '_> {
     /// Proves on from a bound that is known.
     fn prove<const W: usize>(mut self, rounds: u32, known: f64) -> Proof {
         let mut bound = known;
         if self.model.len() > SMALL {
-            bound = quick(self.model, self.incumbent.cost).max(known);
+            bound = quick(self.model, self.incumbent.cost, Care::Whole).max(known);
             if bound >= self.incumbent.cutoff() {
                 return self.closed();
             }
         }
         let mut ascent = self.begin();
-        if self.narrow(&mut ascent) {
-            return self.closed();
+        match self.narrow(&mut ascent) {
+            End::Closed => return self.closed(),
+            End::Open(least) => bound = bound.max(least),
+        }
+        if self.budget.is_spent() {
+            return self.left_open(bound);
         }
         let most_labels = MOST_LABEL_BYTES / Search::<W>::LABEL_BYTES;
         let mut labels = FIRST_LABELS;
@@ -220,25 +215,30 @@ impl<'p, 'a, 'b> Prover<'p, 'a, 'b> {
             if self.budget.is_spent() {
                 break;
             }
-            self.refine(&mut ascent, FIRST_MEMORY + 1 + round as usize / 2);
+            if !self.refine(&mut ascent, FIRST_MEMORY + 1 + round as usize / 2) {
+                break;
+            }
         }
         self.left_open(bound)
     }
 
-    /// Closes most arcs under bounds that cost little, of paths that remember little. Whether
-    /// that is the proof.
-    fn narrow(&mut self, ascent: &mut Ascent) -> bool {
+    /// Closes most arcs under bounds that cost little, of paths that remember little.
+    fn narrow(&mut self, ascent: &mut Ascent) -> End {
         let target = target(self.model, self.incumbent, ascent);
         for _ in 0..NARROWING_STEPS {
-            if !self.budget.spend() || ascent.climb(self.model, &mut self.paths, target) {
+            let spent = !self.budget.spend();
+            if spent || ascent.climb(self.model, &mut self.paths, target, self.budget) {
                 break;
             }
         }
-        if ascent.best.bound >= self.incumbent.cutoff() {
-            return true;
+        let bound = ascent.best.bound;
+        if bound >= self.incumbent.cutoff() {
+            return End::Closed;
         }
         self.paths.read(Reading::Tours);
-        self.fix(&ascent.best);
+        if !self.fix(&ascent.best) {
+            return End::Open(bound);
+        }
         self.paths.close_to_paths();
         let near = |a: usize, b: usize| apart_m(self.model, a, b);
         let size = match self.paths.resource() {
@@ -249,7 +249,7 @@ impl<'p, 'a, 'b> Prover<'p, 'a, 'b> {
         let memory = Memory::nearest(self.network, near, size);
         let tally = self.paths.tally().clone();
         self.paths.refine(memory, tally);
-        false
+        End::Open(bound)
     }
 
     /// Raises the bound, closes arcs, searches.
@@ -276,11 +276,11 @@ impl<'p, 'a, 'b> Prover<'p, 'a, 'b> {
             if step + MORE_STEPS == steps {
                 known = ascent.best.bound;
             }
-            if step == EARLY {
-                // What is closed early makes every further step cheaper.
-                self.fix(&ascent.best);
+            // What is closed early makes every further step cheaper.
+            if step == EARLY && !self.fix(&ascent.best) {
+                break;
             }
-            let done = ascent.climb(model, &mut self.paths, target);
+            let done = ascent.climb(model, &mut self.paths, target, self.budget);
             if ascent.best.bound >= self.incumbent.cutoff() {
                 return End::Closed;
             }
@@ -301,14 +301,18 @@ impl<'p, 'a, 'b> Prover<'p, 'a, 'b> {
             }
         }
         self.paths.read(Reading::Tours);
-        self.fix(&ascent.best);
+        if !self.fix(&ascent.best) {
+            return End::Open(ascent.best.bound);
+        }
         self.search::<W>(ascent, labels)
     }
 
-    fn fix(&mut self, multipliers: &Multipliers) {
+    /// Whether the budget lasted.
+    #[must_use]
+    fn fix(&mut self, multipliers: &Multipliers) -> bool {
         let most = self.incumbent.cutoff() - multipliers.constant + multipliers.rounding();
-        self.paths.evaluate(&multipliers.prices);
-        self.paths.fix(&multipliers.prices, most);
+        self.paths.evaluate(&multipliers.prices, self.budget).is_some()
+            && self.paths.fix(&multipliers.prices, most, self.budget)
     }
 
     fn search<const W: usize>(&mut self, ascent: &Ascent, labels: usize) -> End {
@@ -359,15 +363,18 @@ impl<'p, 'a, 'b> Prover<'p, 'a, 'b> {
     }
 
     /// Makes the paths more like tours: the candidates on each way round remember where it began, and
-    /// the demand that paths keep to the least is counted.
-    fn refine(&mut self, ascent: &mut Ascent, most: usize) {
+    /// the demand that paths keep to the least is counted. Whether the budget lasted.
+    #[must_use]
+    fn refine(&mut self, ascent: &mut Ascent, most: usize) -> bool {
         self.paths.read(Reading::Paths);
-        self.fix(&ascent.best);
+        if !self.fix(&ascent.best) {
+            return false;
+        }
         let path = self.paths.path(&ascent.best.prices);
         let mut memory = self.paths.memory().clone();
         learn(&mut memory, &path, most);
-        if self.late(&path) && self.may_split() {
-            self.paths.split(self.model);
+        if self.late(&path) && self.may_split() && !self.paths.split(self.model, self.budget) {
+            return false;
         }
         if self.paths.size(&memory, self.paths.tally().states) > MOST_VALUES {
             memory = self.paths.memory().clone();
@@ -383,6 +390,7 @@ impl<'p, 'a, 'b> Prover<'p, 'a, 'b> {
             }
         }
         self.paths.refine(memory, tally);
+        true
     }
 
     /// Whether finer times are of use and within what memory allows.
@@ -439,7 +447,7 @@ impl<'p, 'a, 'b> Prover<'p, 'a, 'b> {
     fn left_open(&self, bound: f64) -> Proof {
         if self.budget.is_spent() && self.model.len() <= SMALL {
             // What a search that had no time at all would say still holds; beyond that size it is known already.
-            return quickly(self.model, self.incumbent, bound);
+            return quickly(self.model, self.incumbent, bound, true);
         }
         let bound = bound.min(self.incumbent.cost).min(self.incumbent.beyond);
         Proof { order: self.incumbent.order.clone(), bound, closed: false }

@@ -7,10 +7,19 @@ use super::{Aim, Model, Places};
 use crate::instance::Instance;
 use crate::scenario::Objective;
 
+/// How many prices of what is scarce are tried, at most, where gains count.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Care {
+    /// As many as make the bound better.
+    Whole,
+    /// A few: for one whose time is over.
+    Little,
+}
+
 /// No tour that the check accepts costs less: metres, or negated rewards; infinite if the demands cannot
 /// be met at all. Work is capped by counts, quadratic in the candidates. An infinite `incumbent_cost` says
 /// that no tour is known; a known one only tells where to look.
-pub fn quick(model: &Model<'_>, incumbent_cost: f64) -> f64 {
+pub fn quick(model: &Model<'_>, incumbent_cost: f64, care: Care) -> f64 {
     let instance = &model.wide;
     let places = Places::new(model);
     let Some(sets) = clusters(model, &places, First::Few) else { return f64::INFINITY };
@@ -24,7 +33,7 @@ pub fn quick(model: &Model<'_>, incumbent_cost: f64) -> f64 {
         }
         return clusters(model, &places, First::Close).map_or(bound, |sets| tree(&sets).max(bound));
     }
-    let most = most_gain(model, &places, -incumbent_cost);
+    let most = most_gain(model, &places, -incumbent_cost, care);
     let counts = instance.scenario.objective == Objective::MaxCount;
     -if counts { (most + 1e-6).floor() } else { most }
 }
@@ -34,6 +43,7 @@ pub fn quick(model: &Model<'_>, incumbent_cost: f64) -> f64 {
 pub fn quick_bound(instance: &Instance<'_>, known: Option<f64>) -> Option<f64> {
     let model = Model::new(instance, Aim::Optimum);
     let sign = if model.length_counts { 1.0 } else { -1.0 };
-    let bound = quick(&model, known.map_or(f64::INFINITY, |objective| sign * objective));
+    let cost = known.map_or(f64::INFINITY, |objective| sign * objective);
+    let bound = quick(&model, cost, Care::Whole);
     bound.is_finite().then_some(sign * bound)
 }

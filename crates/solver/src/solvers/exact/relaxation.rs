@@ -11,6 +11,7 @@ use super::network::Network;
 use super::prices::Prices;
 use super::tally::Tally;
 use super::turns::{Turn, Turns};
+use crate::solvers::Budget;
 
 /// The resource by which paths are layered.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -98,7 +99,7 @@ pub struct Relaxation<'n> {
 }
 
 impl<'n> Relaxation<'n> {
-    /// Lays out the layers: `intervals` of the resource up to `horizon`.
+    /// Lays out the layers: `intervals` of the resource up to `horizon`. None if the budget ends before.
     pub fn new(
         model: &Model<'_>,
         network: &'n Network,
@@ -106,7 +107,8 @@ impl<'n> Relaxation<'n> {
         intervals: usize,
         horizon: f64,
         memory: Memory,
-    ) -> Self {
+        budget: &mut Budget<'_>,
+    ) -> Option<Self> {
         let n = model.len();
         let width = match resource {
             Resource::Stops => 1.0,
@@ -133,10 +135,10 @@ impl<'n> Relaxation<'n> {
             scratch: (Vec::new(), Vec::new()),
             followed: Vec::new(),
         };
-        relaxation.graph = relaxation.lay_out(model);
+        relaxation.graph = relaxation.lay_out(model, budget)?;
         relaxation.other = relaxation.graph.clone();
         relaxation.refine(memory, Tally::new(model, Vec::new()));
-        relaxation
+        Some(relaxation)
     }
 
     /// Evaluates the other graph from now on.
@@ -210,8 +212,9 @@ impl<'n> Relaxation<'n> {
         ((amount * (1.0 - 1e-12) / self.width) as usize).min(self.intervals - 1)
     }
 
-    /// Values of all states for these prices; the least cost of a path from start to end.
-    pub fn evaluate(&mut self, prices: &Prices) -> f64 {
+    /// Values of all states for these prices; the least cost of a path from start to end. None if the budget ends
+    /// before: then the values mean nothing.
+    pub fn evaluate(&mut self, prices: &Prices, budget: &mut Budget<'_>) -> Option<f64> {
         let n = self.offset.len() - 1;
         let total = self.offset[n];
         for (turn, arc) in self.turns.all.iter_mut().zip(&self.network.arcs) {
@@ -220,6 +223,9 @@ impl<'n> Relaxation<'n> {
         self.home.clear();
         self.home.extend(self.network.home_j.iter().map(|home_j| prices.per_j * home_j));
         for b in (0..self.intervals).rev() {
+            if !budget.lasts() {
+                return None;
+            }
             self.value[b * total..(b + 1) * total].fill(f64::INFINITY);
             // Paths that stay within an interval are followed until none of them gets cheaper.
             for _pass in 0..n.max(1) {
@@ -234,7 +240,7 @@ impl<'n> Relaxation<'n> {
                 }
             }
         }
-        self.first_arc(prices).map_or(self.empty(), |(value, ..)| value.min(self.empty()))
+        Some(self.first_arc(prices).map_or(self.empty(), |(value, ..)| value.min(self.empty())))
     }
 
     /// States of the tally that are open at a candidate.

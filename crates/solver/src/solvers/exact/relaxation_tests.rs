@@ -9,7 +9,7 @@ use super::{Aim, Model};
 use crate::generate::{KCoverage, Reward, k_coverage, reward};
 use crate::instance::Instance;
 use crate::scenario::{Document, Objective, Scenario};
-use crate::solvers::{Options, SolverName, solve};
+use crate::solvers::{Budget, Options, SolverName, solve};
 use crate::stop::MaxIterations;
 use crate::tolerance::tolerance;
 
@@ -37,27 +37,30 @@ fn bounds_stay_below(document: &Document, intervals: usize) -> bool {
     if !horizon.is_finite() {
         return false;
     }
-    let mut paths = Relaxation::new(&model, &network, resource, intervals, horizon, memory);
+    let mut budget = Budget::new(&stop);
+    let budget = &mut budget;
+    let paths = Relaxation::new(&model, &network, resource, intervals, horizon, memory, budget);
+    let mut paths = paths.unwrap();
     let mut ascent = Ascent::new(&model, resource == Resource::Energy);
     for _ in 0..4 {
         paths.read(Reading::Paths);
         ascent.restart();
         ascent.best.bound = f64::NEG_INFINITY;
         for _ in 0..12 {
-            ascent.climb(&model, &mut paths, above);
+            ascent.climb(&model, &mut paths, above, budget);
             let bound = ascent.best.bound;
             assert!(bound <= above, "{:?}: {bound} over {above}", scenario.name);
         }
         for reading in [Reading::Tours, Reading::Paths] {
             paths.read(reading);
-            paths.evaluate(&ascent.best.prices);
+            paths.evaluate(&ascent.best.prices, budget).unwrap();
             let most = above - ascent.best.constant + ascent.best.rounding();
-            paths.fix(&ascent.best.prices, most);
+            assert!(paths.fix(&ascent.best.prices, most, budget));
         }
         if resource == Resource::Stops {
             break;
         }
-        paths.split(&model);
+        assert!(paths.split(&model, budget));
     }
     true
 }
