@@ -51,9 +51,7 @@ pub fn layers(
             let arcs = &network.arcs[..network.leaving(model.len()).start];
             let least_j = arcs.iter().map(|arc| arc.energy_j).fold(f64::INFINITY, f64::min);
             let fine = (horizon / least_j).ceil();
-            if std::env::var("TRACE").is_ok() {
-                eprintln!("fine {fine}");
-            }
+            // As for time: where every arc leads into a later interval, no layer needs a second look.
             if fine <= FINER_OF_ENERGY * INTERVALS_OF_ENERGY as f64 {
                 return ((fine as usize + 1).max(INTERVALS_OF_ENERGY), horizon);
             }

@@ -13,6 +13,7 @@ use super::quick::{Care, quick};
 use super::relaxation::{Reading, Relaxation, Resource};
 use super::search::{End, Search};
 use super::tally::Tally;
+use crate::scenario::Objective;
 use crate::solvers::{Budget, baseline};
 
 /// What a proof has come to.
@@ -60,7 +61,7 @@ const ITERATIONS_OF_LONG_PROOF: u64 = 3;
 const MOST_ITERATIONS_OF_LONG_PROOF: u64 = 100_000;
 const LABELS_PER_MOVING_ITERATION: usize = 500;
 const MOST_ITERATIONS: u64 = 20_000;
-/// In a share where gains count, so many before the first bound: the more arcs, the longer it takes and the less it
+/// In a share where rewards count, so many before the first bound: the more arcs, the longer it takes and the less it
 /// shows.
 const SQUARED_ARCS_PER_ITERATION: u64 = 4_000;
 const MOST_ITERATIONS_OF_ARCS: u64 = 14_000;
@@ -120,13 +121,14 @@ pub fn prove(
     if rounds == 0 {
         return quickly(model, incumbent, known, budget.is_spent());
     }
-    if effort == Effort::Share && !model.length_counts && !model.wide.moving {
+    let rewards = model.wide.scenario.objective == Objective::MaxReward && !model.wide.moving;
+    if effort == Effort::Share && model.aim == Aim::Optimum && rewards {
         let arcs = network.arcs.len() as u64;
         let iterations = (arcs * arcs / SQUARED_ARCS_PER_ITERATION).min(MOST_ITERATIONS_OF_ARCS);
         let stops = incumbent.order.as_ref().map_or(0, Vec::len) as u64;
         improve(model, baseline::whole_runs(stops, iterations), incumbent, rng, budget);
-        if incumbent.suffices() || budget.is_spent() {
-            return quickly(model, incumbent, known, budget.is_spent());
+        if budget.is_spent() {
+            return quickly(model, incumbent, known, true);
         }
     }
     let resource = resource(model);
@@ -215,7 +217,8 @@ impl Prover<'_, '_, '_> {
             if self.budget.is_spent() {
                 break;
             }
-            if !self.refine(&mut ascent, FIRST_MEMORY + 1 + round as usize / 2) {
+            let most = self.first_memory().max(FIRST_MEMORY + 1) + round as usize / 2;
+            if !self.refine(&mut ascent, most) {
                 break;
             }
         }
@@ -241,15 +244,19 @@ impl Prover<'_, '_, '_> {
         }
         self.paths.close_to_paths();
         let near = |a: usize, b: usize| apart_m(self.model, a, b);
-        let size = match self.paths.resource() {
-            _ if few(self.model) => FIRST_MEMORY_OF_FEW,
-            Resource::Energy => FIRST_MEMORY_OF_ENERGY,
-            _ => FIRST_MEMORY,
-        };
-        let memory = Memory::nearest(self.network, near, size);
+        let memory = Memory::nearest(self.network, near, self.first_memory());
         let tally = self.paths.tally().clone();
         self.paths.refine(memory, tally);
         End::Open(bound)
+    }
+
+    /// Neighbours that each candidate remembers in the first round.
+    fn first_memory(&self) -> usize {
+        match self.paths.resource() {
+            _ if few(self.model) => FIRST_MEMORY_OF_FEW,
+            Resource::Energy => FIRST_MEMORY_OF_ENERGY,
+            _ => FIRST_MEMORY,
+        }
     }
 
     /// Raises the bound, closes arcs, searches.
