@@ -13,10 +13,10 @@ use crate::tour::{Tour, Value};
 const FIRST: u64 = 60;
 /// In a share, whose budget may end before the first bound is there: so many for each stop of the tour, too.
 const FIRST_PER_STOP_OF_SHARE: u64 = 20;
-/// And where nothing moves and metres are the cost, one for so many of the cube of the stops, up to a limit: the more
-/// stops, the longer the bounds take and the less they show, while the tour may still have the wrong stops.
-const CUBED_STOPS_PER_FIRST: u64 = 4;
-const MOST_OF_CUBE: u64 = 14_000;
+/// And where nothing moves and metres are the cost, one for so many of the fourth power of the stops, up to a limit:
+/// the more stops, the longer the bounds take and the less they show, while the tour may still have the wrong stops.
+const FOURTH_POWERS_PER_FIRST: u64 = 76;
+const MOST_OF_POWER: u64 = 14_000;
 /// In a share where the stops at moving sensors are counted, no more: the proof's own search finds better tours.
 const FIRST_OF_COUNT: u64 = 5;
 /// Iterations of the baseline for a tour that breaks as little as can be.
@@ -83,13 +83,13 @@ pub fn solve(
 /// over it does what the baseline alone would do.
 fn first_of_share(instance: &Instance<'_>, stops: u64) -> u64 {
     let first = FIRST + FIRST_PER_STOP_OF_SHARE * stops;
-    let cube = match instance.scenario.objective {
+    let power = match instance.scenario.objective {
         Objective::MaxCount if instance.moving => return FIRST_OF_COUNT,
         _ if instance.moving => return first,
-        Objective::MinDistance => stops.saturating_pow(3) / CUBED_STOPS_PER_FIRST,
+        Objective::MinDistance => stops.saturating_pow(4) / FOURTH_POWERS_PER_FIRST,
         Objective::MaxReward | Objective::MaxCount => 0,
     };
-    baseline::whole_runs(stops, first + cube.min(MOST_OF_CUBE))
+    baseline::whole_runs(stops, first + power.min(MOST_OF_POWER))
 }
 
 /// The best of all tours where they are few; else the tour after some iterations of the baseline.
