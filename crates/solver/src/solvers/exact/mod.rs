@@ -2,9 +2,10 @@
 //!
 //! One machine serves every combination of objective and constraints. A model states what is proven, with
 //! limits as wide as the check lets them be. Lower bounds come from relaxed paths (ng-paths, layered by
-//! the scarcest resource) with Lagrangian prizes for what must be served; they become tighter round by
-//! round, as paths remember more neighbours, count more demands and keep finer times. Under these bounds a
-//! best-first search over labels, with dominance, either ends, which is the proof, or gives a bound.
+//! the scarcest resource) with Lagrangian prizes for what must be served, and with a price of energy where
+//! energy makes the layers; they become tighter round by round, as paths remember more neighbours, count
+//! more demands and keep finer times. Under these bounds a best-first search over labels, with dominance,
+//! either ends, which is the proof, or gives a bound.
 //!
 //! How many can be served where time is all that runs out is asked in another way first (`counting`):
 //! time is then the cost, and a tour of one stop more is what must not exist.
