@@ -37,6 +37,9 @@ const WIDE_POOL_OF_GAIN: (usize, usize) = (40, 10);
 const WHOLE_POOL: f64 = 0.02;
 /// Tours longer than this are improved by local search in every iteration.
 const LONG: usize = 40;
+/// By at most so many moves; where sensors move, each takes as long as the tour.
+const MOVES: usize = 100;
+const MOVES_OF_MOVING: usize = 10;
 /// A demand that no legal insertion meets has its deadlines repaired this often.
 const REPAIR: f64 = 0.05;
 
@@ -229,7 +232,8 @@ impl<'a, 'b> Search<'a, 'b> {
             let mut dirty = removed;
             dirty.extend(pool);
             dirty.retain(|&c| trial.tour.serves(c));
-            descend(&self.instance, &mut trial.tour, &mut self.near, &mut dirty, 100);
+            let moves = if self.instance.moving { MOVES_OF_MOVING } else { MOVES };
+            descend(&self.instance, &mut trial.tour, &mut self.near, &mut dirty, moves);
         }
     }
 
