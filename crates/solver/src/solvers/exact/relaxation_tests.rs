@@ -1,10 +1,11 @@
-//! Relaxed paths: whatever is closed, and however often times are split, the best tour stays a path.
+//! Relaxed paths: whatever is closed, however often times are split and demands counted, the best tour stays a path.
 
 use super::layers::resource;
 use super::memory::Memory;
 use super::multipliers::Ascent;
 use super::network::Network;
 use super::relaxation::{Reading, Relaxation, Resource};
+use super::tally::Tally;
 use super::{Aim, Model};
 use crate::generate::{KCoverage, Reward, k_coverage, reward};
 use crate::instance::Instance;
@@ -61,6 +62,13 @@ fn bounds_stay_below(document: &Document, intervals: usize) -> bool {
             break;
         }
         assert!(paths.split(&model, budget));
+        if let Some(demand) = ascent.loosest(&model)
+            && paths.tally().states * (model.demands[demand].needs as usize + 1) <= 32
+        {
+            let demands = paths.tally().demands.iter().copied().chain([demand]).collect();
+            ascent.count(&model, demand);
+            paths.refine(paths.memory().clone(), Tally::new(&model, demands));
+        }
     }
     true
 }
