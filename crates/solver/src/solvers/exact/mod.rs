@@ -26,9 +26,11 @@ mod places;
 mod prices;
 mod pricing;
 mod prove;
+mod prover;
 mod quick;
 #[cfg(test)]
 mod quick_tests;
+mod refine;
 mod relaxation;
 #[cfg(test)]
 mod relaxation_tests;
