@@ -1,7 +1,6 @@
 //! One algorithm on one scenario. Times are processor time of the thread, so that other threads do not count.
 
 use std::cell::Cell;
-use std::time::Instant;
 
 use cpu_time::ThreadTime;
 use voltour_solver::check::check;
@@ -13,6 +12,7 @@ use voltour_solver::solvers::{Options, PolicyUse, SolverName, Unfinished, solve_
 use voltour_solver::stop::Limit;
 
 use super::{BenchError, Ended, Entrant, Run, Settings};
+use crate::clock::{Clock, SystemClock};
 
 /// Bytes of a MiB.
 const MIB: usize = 1 << 20;
@@ -47,10 +47,10 @@ impl<'a> Prepared<'a> {
     ) -> Result<Run, BenchError> {
         let most =
             if entrant.solver == SolverName::Baseline { settings.iterations } else { u64::MAX };
-        let wall = wall();
         let begin = ThreadTime::now();
         let spent_s = || begin.elapsed().as_secs_f64();
-        let limit = Limit::new(settings.time_limit_s, spent_s, || wall.elapsed().as_secs_f64());
+        let ran_s = || SystemClock.ran().as_secs_f64();
+        let limit = Limit::new(settings.time_limit_s, spent_s, ran_s);
         let late = Cell::new(false);
         let stop = |done: u64| {
             late.set(limit.is_over());
@@ -95,10 +95,4 @@ impl<'a> Prepared<'a> {
     fn name(&self) -> String {
         format!("{}, scenario {}", self.group, self.index)
     }
-}
-
-/// The clock that is cheap to read and never slower than the thread's.
-#[allow(clippy::disallowed_methods, reason = "a benchmark is where the clock comes in")]
-fn wall() -> Instant {
-    Instant::now()
 }

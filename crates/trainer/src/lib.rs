@@ -13,5 +13,6 @@ pub mod network;
 pub mod onnx;
 pub mod report;
 pub mod scenarios;
+pub mod stopwatch;
 
 pub use error::{Error, Result};

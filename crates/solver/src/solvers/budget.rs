@@ -20,11 +20,11 @@ impl<'a> Budget<'a> {
 
     /// Counts one iteration; whether the search may go on.
     pub fn spend(&mut self) -> bool {
-        if !self.stopped {
-            self.iterations += 1;
-            self.stopped = self.stop.should_stop(self.iterations);
+        if self.stopped {
+            return false;
         }
-        !self.stopped
+        self.iterations += 1;
+        self.lasts()
     }
 
     /// Asks the rule once more without counting an iteration; whether the search may go on. For steps that take long,

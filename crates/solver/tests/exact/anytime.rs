@@ -8,7 +8,7 @@ use voltour_solver::scenario::Scenario;
 use voltour_solver::tolerance::tolerance;
 
 use crate::draw::awkward;
-use crate::run::{AMPLE, exact, trials};
+use crate::run::{AMPLE, broken_off, exact, trials};
 use crate::truth::{Truth, cost_of, needs};
 
 const BUDGETS: [u64; 13] = [0, 1, 2, 5, 10, 20, 50, 100, 200, 500, 1_000, 3_000, 10_000];
@@ -107,6 +107,20 @@ fn presets_get_better_and_stay_proven() {
                 assert_follows(&scenario, last, &other);
                 assert_follows(&scenario, &other, last);
             }
+        }
+    }
+}
+
+#[test]
+fn claims_are_true_where_a_step_is_broken_off() {
+    const MOMENTS: u64 = 40;
+    for scenario in presets() {
+        let (last, asked) = broken_off(&scenario, u64::MAX);
+        assert!(decided(&last), "{:?}", scenario.name);
+        for moment in 0..MOMENTS {
+            let (early, _) = broken_off(&scenario, asked * moment / MOMENTS);
+            assert_eq!(check(&scenario, &early), [], "{:?}", scenario.name);
+            assert_follows(&scenario, &early, &last);
         }
     }
 }

@@ -6,7 +6,6 @@ mod command;
 mod evaluate;
 mod export;
 mod run;
-mod stopwatch;
 mod train;
 
 pub use command::{Cli, run};

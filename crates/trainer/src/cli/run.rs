@@ -9,9 +9,9 @@ use voltour_trainer::checkpoint::{self, Checkpoint};
 use voltour_trainer::dqn::{Progress, Score, Training, Trial, validate};
 use voltour_trainer::network::Weights;
 use voltour_trainer::report::{self, Point};
+use voltour_trainer::stopwatch::Stopwatch;
 
 use super::bar::Bar;
-use super::stopwatch::Stopwatch;
 
 /// A training on its way, and what is known of it.
 pub struct Run<'a> {

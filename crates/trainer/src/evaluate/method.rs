@@ -2,7 +2,6 @@
 
 use std::fmt;
 use std::str::FromStr;
-use std::time::Instant;
 
 use cpu_time::ThreadTime;
 use rand_pcg::Pcg64Mcg;
@@ -16,6 +15,8 @@ use voltour_solver::scenario::Objective;
 use voltour_solver::solvers::{Budget, Options, SolverName, solve_compiled};
 use voltour_solver::stop::Limit;
 use voltour_solver::tour::Tour;
+
+use crate::stopwatch::Stopwatch;
 
 /// How the control's noise compares with its values: that many times the mean length, or the mean ratio.
 const CONTROL_TEMPERATURE: f64 = 0.3;
@@ -166,8 +167,8 @@ impl Method {
         let problem = Problem::of(instance.scenario.objective);
         match self.way {
             Way::Solver(solver) => {
-                let wall = wall();
-                let stop = Limit::new(limit_s, spent, || wall.elapsed().as_secs_f64());
+                let watch = Stopwatch::start();
+                let stop = Limit::new(limit_s, spent, || watch.seconds());
                 let options = Options { solver, seed, stop: &stop, policy: Some(policy) };
                 let outcome = solve_compiled(instance, &options)
                     .map_err(|error| QError::Failed(error.to_string()))?;
@@ -211,12 +212,6 @@ impl Method {
             }
         }
     }
-}
-
-/// The clock that is cheap to read and never slower than the thread's.
-#[allow(clippy::disallowed_methods, reason = "an evaluation is where the clock comes in")]
-pub(super) fn wall() -> Instant {
-    Instant::now()
 }
 
 /// Local search on the best tour.

@@ -11,7 +11,7 @@ use voltour_solver::plan::Status;
 use voltour_solver::solvers::{Options, SolverName, solve_compiled};
 use voltour_solver::stop::Limit;
 
-use super::method::wall;
+use crate::stopwatch::Stopwatch;
 
 /// The reference of a scenario.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -54,12 +54,9 @@ impl Optima {
             return Ok(known);
         }
         let begin = ThreadTime::now();
-        let wall = wall();
-        let stop = Limit::new(
-            self.limit_s,
-            || begin.elapsed().as_secs_f64(),
-            || wall.elapsed().as_secs_f64(),
-        );
+        let watch = Stopwatch::start();
+        let spent = || begin.elapsed().as_secs_f64();
+        let stop = Limit::new(self.limit_s, spent, || watch.seconds());
         let options = Options { solver: SolverName::Exact, seed: 0, stop: &stop, policy: None };
         // The exact solver is part of every version.
         let solved = solve_compiled(instance, &options).map_err(io::Error::other)?;

@@ -1,7 +1,7 @@
 //! Reduced cost fixing: arcs that no path uses whose cost beats the cutoff are closed for good.
 
 use super::prices::Prices;
-use super::relaxation::{Reading, Relaxation, Resource};
+use super::relaxation::{Reading, Relaxation, Resource, Way};
 use super::turns::Turn;
 use crate::solvers::Budget;
 
@@ -33,7 +33,9 @@ impl Relaxation<'_> {
                 own.iter_mut().zip(before).for_each(|(own, before)| *own = own.min(*before));
             }
             // Paths that stay within an interval are followed until none of them gets cheaper.
-            let passes = if self.within { n } else { 0 };
+            let within = |way: &Way| usize::from(way.next) == b;
+            let own = self.graph.first[b * n]..self.graph.first[(b + 1) * n];
+            let passes = if self.graph.ways[own].iter().any(within) { n } else { 0 };
             for _pass in 0..passes {
                 let mut again = false;
                 for i in 0..n {

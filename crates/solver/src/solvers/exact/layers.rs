@@ -50,12 +50,8 @@ pub fn layers(
             let horizon = instance.capacity_j.max(1e-9);
             let arcs = &network.arcs[..network.leaving(model.len()).start];
             let least_j = arcs.iter().map(|arc| arc.energy_j).fold(f64::INFINITY, f64::min);
-            let fine = (horizon / least_j).ceil();
-            // As for time: where every arc leads into a later interval, no layer needs a second look.
-            if fine <= FINER_OF_ENERGY * INTERVALS_OF_ENERGY as f64 {
-                return ((fine as usize + 1).max(INTERVALS_OF_ENERGY), horizon);
-            }
-            (INTERVALS_OF_ENERGY, horizon)
+            let arrive_later = horizon / least_j;
+            (finer(network, INTERVALS_OF_ENERGY, FINER_OF_ENERGY, arrive_later), horizon)
         }
         Resource::Time => {
             let reachable = (0..model.len()).filter(|&i| network.earliest_s[i].is_finite());
@@ -78,16 +74,19 @@ pub fn layers(
                 horizon = due.fold(1.0, f64::max);
             }
             let horizon = horizon.max(1e-9);
-            let intervals = if few(model) { INTERVALS_OF_FEW } else { INTERVALS };
-            // Where every arc leads into a later interval, no layer needs a second look.
-            let fine = (horizon / network.least_step(model)).ceil();
-            let finer = if few(model) { FINER_OF_FEW } else { FINER };
-            if fine <= finer * intervals as f64
-                && fine * network.arcs.len() as f64 <= MOST_ARRIVALS as f64
-            {
-                return ((fine as usize + 1).max(intervals), horizon);
-            }
-            (intervals, horizon)
+            let (intervals, times) =
+                if few(model) { (INTERVALS_OF_FEW, FINER_OF_FEW) } else { (INTERVALS, FINER) };
+            let arrive_later = horizon / network.least_step(model);
+            (finer(network, intervals, times, arrive_later), horizon)
         }
     }
+}
+
+/// So many intervals, or as many as make every arc lead into a later one, if those are at most so many `times` as many:
+/// then no layer needs a second look.
+fn finer(network: &Network, intervals: usize, times: f64, arrive_later: f64) -> usize {
+    let fine = arrive_later.ceil();
+    let few = fine <= times * intervals as f64
+        && fine * network.arcs.len() as f64 <= MOST_ARRIVALS as f64;
+    if few { (fine as usize + 1).max(intervals) } else { intervals }
 }

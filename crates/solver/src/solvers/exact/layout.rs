@@ -56,7 +56,6 @@ impl Relaxation<'_> {
             ways: Vec::new(),
             live: vec![false; self.intervals * n * tallies],
         };
-        self.within = false;
         let start = instance.departure();
         let home = instance.finish(&start);
         if home.arrive_s <= instance.timespan_s && instance.energy_j(&home) <= instance.capacity_j {
@@ -84,7 +83,6 @@ impl Relaxation<'_> {
                     self.ends[b * n + i] = self.end(model, &run, spent_j);
                     for (arc, a) in self.network.leaving(i).enumerate() {
                         if let Some(next) = self.arrival(model, a, b, &run, spent_j) {
-                            self.within |= usize::from(next) == b;
                             graph.ways.push(Way { arc: arc as u16, next });
                         }
                     }

@@ -61,7 +61,7 @@ pub fn prove(
     }
     let words = model.len().max(model.demands.len()).div_ceil(64);
     if budget.is_spent() || words > 8 || model.len() * model.len() * INTERVALS > MOST_ARRIVALS {
-        return quickly(model, incumbent, known, budget.is_spent());
+        return quickly(model, incumbent, known, budget);
     }
     let network = Network::new(model);
     let arrivals = network.arcs.len() * INTERVALS;
@@ -70,7 +70,7 @@ pub fn prove(
         SHARES.iter().find(|share| arrivals <= share.1.min(most)).map_or(0, |share| share.0);
     let rounds = if effort == Effort::Whole { ROUNDS } else { share };
     if rounds == 0 {
-        return quickly(model, incumbent, known, budget.is_spent());
+        return quickly(model, incumbent, known, budget);
     }
     let rewards = model.wide.scenario.objective == Objective::MaxReward && !model.wide.moving;
     if effort == Effort::Share && model.aim == Aim::Optimum && rewards {
@@ -79,11 +79,11 @@ pub fn prove(
         let stops = incumbent.order.as_ref().map_or(0, Vec::len) as u64;
         improve(model, baseline::whole_runs(stops, iterations), incumbent, rng, budget);
         if budget.is_spent() {
-            return quickly(model, incumbent, known, true);
+            return quickly(model, incumbent, known, budget);
         }
     }
     let Some(paths) = Prover::paths(model, &network, incumbent, budget) else {
-        return quickly(model, incumbent, known, true);
+        return quickly(model, incumbent, known, budget);
     };
     let prover = Prover { model, network: &network, paths, effort, incumbent, rng, budget };
     match words {
@@ -99,9 +99,9 @@ pub(super) fn quickly(
     model: &Model<'_>,
     incumbent: &Incumbent,
     known: f64,
-    is_spent: bool,
+    budget: &Budget<'_>,
 ) -> Proof {
-    let care = if is_spent { Care::Little } else { Care::Whole };
+    let care = if budget.is_spent() { Care::Little } else { Care::Whole };
     let bound = quick(model, incumbent.cost, care).max(known);
     let closed = bound == f64::INFINITY || bound >= incumbent.cutoff() && incumbent.order.is_some();
     let bound = bound.min(incumbent.cost).min(incumbent.beyond);

@@ -74,8 +74,7 @@ impl<'p> Prover<'p, '_, '_> {
     ) -> Option<Relaxation<'p>> {
         let resource = resource(model);
         let (intervals, horizon) = layers(model, network, incumbent, resource);
-        let near = |a: usize, b: usize| apart_m(model, a, b);
-        let memory = Memory::nearest(network, near, NARROWING_MEMORY);
+        let memory = nearest(model, network, NARROWING_MEMORY);
         Relaxation::new(model, network, resource, intervals, horizon, memory, budget)
     }
 
@@ -141,8 +140,7 @@ impl<'p> Prover<'p, '_, '_> {
             return End::Open(bound);
         }
         self.paths.close_to_paths();
-        let near = |a: usize, b: usize| apart_m(self.model, a, b);
-        let memory = Memory::nearest(self.network, near, self.first_memory());
+        let memory = nearest(self.model, self.network, self.first_memory());
         let tally = self.paths.tally().clone();
         self.paths.refine(memory, tally);
         End::Open(bound)
@@ -301,7 +299,7 @@ impl<'p> Prover<'p, '_, '_> {
     fn left_open(&self, bound: f64) -> Proof {
         if self.budget.is_spent() && self.model.len() <= SMALL {
             // What a search that had no time at all would say still holds; beyond that size it is known already.
-            return quickly(self.model, self.incumbent, bound, true);
+            return quickly(self.model, self.incumbent, bound, self.budget);
         }
         let bound = bound.min(self.incumbent.cost).min(self.incumbent.beyond);
         Proof { order: self.incumbent.order.clone(), bound, closed: false }
@@ -317,6 +315,11 @@ fn target(model: &Model<'_>, incumbent: &Incumbent, ascent: &Ascent) -> f64 {
         let bound = ascent.best.bound;
         if bound.is_finite() { bound.abs() * 1.2 + 1.0 } else { 1.0 }
     }
+}
+
+/// Each candidate remembers so many of those near it.
+fn nearest(model: &Model<'_>, network: &Network, size: usize) -> Memory {
+    Memory::nearest(network, |a, b| apart_m(model, a, b), size)
 }
 
 /// Roughly how far two candidates are apart, in metres.

@@ -67,8 +67,6 @@ pub struct Relaxation<'n> {
     pub(super) resource: Resource,
     pub(super) intervals: usize,
     pub(super) width: f64,
-    /// Whether some arc may stay within an interval.
-    pub(super) within: bool,
     pub(super) memory: Memory,
     pub(super) tally: Tally,
     /// By candidate, where its states begin in a layer; last, their number. Within a candidate, masks run
@@ -119,7 +117,6 @@ impl<'n> Relaxation<'n> {
             resource,
             intervals,
             width,
-            within: false,
             memory: Memory { of: Vec::new() },
             tally: Tally::new(model, Vec::new()),
             offset: Vec::new(),

@@ -9,7 +9,7 @@ use super::network::Network;
 /// An arc between states.
 #[derive(Clone, Copy, Debug)]
 pub struct Turn {
-    /// What it costs, less the prize at its head.
+    /// What it costs under the prices of the last evaluation.
     pub cost: f64,
     pub to: u32,
     /// The state of a layer that its first slot leads to, before anything is counted.
@@ -29,7 +29,7 @@ pub struct Turn {
 impl Turn {
     /// Its slots among those of its tail.
     #[inline]
-    pub fn slots(&self) -> std::ops::Range<usize> {
+    fn slots(&self) -> std::ops::Range<usize> {
         self.slot as usize..self.slot as usize + usize::from(self.slots)
     }
 
