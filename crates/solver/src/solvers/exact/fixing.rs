@@ -63,13 +63,13 @@ impl Relaxation<'_> {
         let total = self.offset[self.offset.len() - 1];
         let own = b * total + self.offset[i]..b * total + self.offset[i + 1];
         let masks = 1 << self.memory.of[i].len();
-        let width = self.turns.slots(i);
+        let patterns = &self.turns.patterns[i];
+        let width = patterns.cells();
         begun.any.clear();
-        begun.slots.clear();
-        begun.slots.resize(width * self.tally.states, f64::INFINITY);
+        begun.cells.resize(width * self.tally.states, f64::INFINITY);
         let states =
             reached[own.clone()].chunks_exact(masks).zip(self.value[own].chunks_exact(masks));
-        for ((reached, value), slots) in states.zip(begun.slots.chunks_exact_mut(width)) {
+        for ((reached, value), cells) in states.zip(begun.cells.chunks_exact_mut(width)) {
             begun.costs.clear();
             let costs = reached.iter().zip(value);
             begun.costs.extend(costs.map(
@@ -79,12 +79,8 @@ impl Relaxation<'_> {
             ));
             let any = begun.costs.iter().any(|cost| *cost < f64::INFINITY);
             begun.any.push(any);
-            for group in self.turns.groups(i).iter().filter(|_| any) {
-                let slots = &mut slots[group.first as usize..=(group.first + group.slots) as usize];
-                for (&cost, &slot) in begun.costs.iter().zip(self.turns.fold(group, masks)) {
-                    let least = &mut slots[usize::from(slot)];
-                    *least = if cost < *least { cost } else { *least };
-                }
+            if any {
+                patterns.spread(&begun.costs, cells);
             }
         }
         begun.any.contains(&true)
@@ -145,7 +141,7 @@ impl Relaxation<'_> {
         kept
     }
 
-    /// What it costs at least to begin a way, with the state at its head, for every slot from which it is open.
+    /// What it costs at least to begin a way, with the state at its head, for every pattern from which it is open.
     #[inline]
     fn over(
         &self,
@@ -156,10 +152,10 @@ impl Relaxation<'_> {
         mut each: impl FnMut(f64, usize),
     ) {
         let layer = next * self.offset[self.offset.len() - 1];
-        let states = begun.slots.chunks_exact(self.turns.slots(i)).zip(&begun.any);
-        for (tally, (slots, _)) in states.enumerate().filter(|(_, (_, any))| **any) {
+        let states = begun.cells.chunks_exact(self.turns.patterns[i].cells()).zip(&begun.any);
+        for (tally, (cells, _)) in states.enumerate().filter(|(_, (_, any))| **any) {
             let ahead = layer + turn.counted(self.tally.after(tally, turn.to));
-            self.turns.each_head(turn, |slot, head| each(slots[slot], ahead + head));
+            self.turns.each_head(turn, |cell, head| each(cells[cell], ahead + head));
         }
     }
 }
@@ -167,10 +163,10 @@ impl Relaxation<'_> {
 /// The costs at which paths begin to go on from a candidate.
 #[derive(Debug, Default)]
 struct Begun {
-    /// By state of the tally and slot, the least.
-    slots: Vec<f64>,
+    /// By state of the tally and pattern, the least.
+    cells: Vec<f64>,
     /// By state of the tally, whether any is open.
     any: Vec<bool>,
-    /// By mask, for one state of the tally, while slots are filled.
+    /// By mask, for one state of the tally, while cells are filled.
     costs: Vec<f64>,
 }

@@ -22,6 +22,9 @@ mod moats;
 mod model;
 mod multipliers;
 mod network;
+mod patterns;
+#[cfg(test)]
+mod patterns_tests;
 mod places;
 mod prices;
 mod pricing;

@@ -25,6 +25,8 @@ pub struct Multipliers {
     pub prices: Prices,
     /// What does not depend on the path.
     pub constant: f64,
+    /// How far rounding may have moved the bound.
+    pub rounding: f64,
     /// The bound on the cost of every feasible tour.
     pub bound: f64,
 }
@@ -39,6 +41,7 @@ impl Multipliers {
             limit: 0.0,
             prices: Prices::default(),
             constant: 0.0,
+            rounding: 0.0,
             bound: f64::NEG_INFINITY,
         };
         zero.price(model);
@@ -52,12 +55,8 @@ impl Multipliers {
         let needs = model.demands.iter().zip(&self.demand).map(|(d, m)| f64::from(d.needs) * m);
         self.limit = if self.energy > 0.0 { self.energy * model.wide.capacity_j } else { 0.0 };
         self.constant = needs.sum::<f64>() - self.visit.iter().sum::<f64>() - self.limit;
-    }
-
-    /// How far rounding may have moved the bound.
-    pub fn rounding(&self) -> f64 {
         let sum: f64 = self.demand.iter().chain(&self.visit).sum();
-        1e-12 * (1.0 + sum + self.limit + self.constant.abs())
+        self.rounding = 1e-12 * (1.0 + sum + self.limit + self.constant.abs());
     }
 }
 
@@ -180,7 +179,7 @@ impl Ascent {
         budget: &mut Budget<'_>,
     ) -> bool {
         let Some(value) = paths.evaluate(&self.at.prices, budget) else { return true };
-        self.at.bound = self.at.constant + value - self.at.rounding();
+        self.at.bound = self.at.constant + value - self.at.rounding;
         let path = paths.path(&self.at.prices);
         if self.at.bound > self.best.bound {
             let gained = self.at.bound - self.best.bound;

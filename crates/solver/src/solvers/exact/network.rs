@@ -57,6 +57,9 @@ impl Network {
                     network.arcs.push(Arc { to: to as u32, cost, leg_s, energy_j });
                 }
             }
+            // Near ones first: their heads remember more of what their tails do.
+            let begin = network.first[from];
+            network.arcs[begin..].sort_by(|a, b| a.leg_s.total_cmp(&b.leg_s));
             network.first.push(network.arcs.len());
         }
         network

@@ -213,7 +213,7 @@ impl<'p> Prover<'p, '_, '_> {
     /// Whether the budget lasted.
     #[must_use]
     pub(super) fn fix(&mut self, multipliers: &Multipliers) -> bool {
-        let most = self.incumbent.cutoff() - multipliers.constant + multipliers.rounding();
+        let most = self.incumbent.cutoff() - multipliers.constant + multipliers.rounding;
         self.paths.evaluate(&multipliers.prices, self.budget).is_some()
             && self.paths.fix(&multipliers.prices, most, self.budget)
     }

@@ -90,10 +90,8 @@ pub struct Relaxation<'n> {
     home: Vec<f64>,
     /// By interval and state, the least cost of going on.
     pub(super) value: Vec<f64>,
-    /// Values of one candidate while they are computed, and of its slots.
+    /// Values of one candidate while they are computed, by mask and by pattern.
     scratch: (Vec<f64>, Vec<f64>),
-    /// By group of that candidate, whether a way of it was followed.
-    followed: Vec<bool>,
 }
 
 impl<'n> Relaxation<'n> {
@@ -130,7 +128,6 @@ impl<'n> Relaxation<'n> {
             home: Vec::new(),
             value: Vec::new(),
             scratch: (Vec::new(), Vec::new()),
-            followed: Vec::new(),
         };
         relaxation.graph = relaxation.lay_out(model, budget)?;
         relaxation.other = relaxation.graph.clone();
@@ -263,48 +260,28 @@ impl<'n> Relaxation<'n> {
         let (n, total) = (self.offset.len() - 1, self.offset[self.offset.len() - 1]);
         let masks = 1 << self.memory.of[i].len();
         let own = b * total + self.offset[i];
-        let (mut best, mut slots) = std::mem::take(&mut self.scratch);
-        let mut followed = std::mem::take(&mut self.followed);
-        best.clear();
-        best.resize(masks * self.tally.states, f64::INFINITY);
-        best[masks * self.tally.met()..].fill(self.ends[b * n + i] + self.home[i]);
-        let groups = self.turns.groups(i);
-        let width = self.turns.slots(i);
-        slots.clear();
-        slots.resize(width * self.tally.states, f64::INFINITY);
-        followed.clear();
-        followed.resize(groups.len(), false);
+        let (mut best, mut cells) = std::mem::take(&mut self.scratch);
+        let patterns = &self.turns.patterns[i];
+        let width = patterns.cells();
+        cells.clear();
+        cells.resize(width * self.tally.states, f64::INFINITY);
+        cells[width * self.tally.met() + patterns.all()] = self.ends[b * n + i] + self.home[i];
         let live = self.live(b, i);
-        let mut within = false;
-        for (next, turn) in self.ways(b, i) {
-            within |= next == b;
-            followed[usize::from(turn.group)] = true;
-            for state in (0..self.tally.states).filter(|&state| live[state]) {
+        let within = self.graph.leaving(b * n + i).iter().any(|way| usize::from(way.next) == b);
+        for (state, cells) in cells.chunks_exact_mut(width).enumerate().filter(|(s, _)| live[*s]) {
+            for (next, turn) in self.ways(b, i) {
                 let counted = turn.counted(self.tally.after(state, turn.to));
                 let ahead = &self.value[next * total + counted..(next + 1) * total];
-                let slots = &mut slots[state * width..(state + 1) * width];
-                // Without branches on the values, which follow no pattern.
-                self.turns.each_head(turn, |slot, head| {
+                // Without branches on the values, which follow no order.
+                self.turns.each_head(turn, |cell, head| {
                     let value = turn.cost + ahead[head];
-                    slots[slot] = if value < slots[slot] { value } else { slots[slot] };
+                    cells[cell] = if value < cells[cell] { value } else { cells[cell] };
                 });
             }
         }
-        for (group, _) in groups.iter().zip(&followed).filter(|(_, followed)| **followed) {
-            let fold = self.turns.fold(group, masks);
-            for (best, slots) in best.chunks_exact_mut(masks).zip(slots.chunks_exact(width)) {
-                let slots = &slots[group.first as usize..=(group.first + group.slots) as usize];
-                if group.whole {
-                    let value = slots[0];
-                    best.iter_mut()
-                        .for_each(|best| *best = if value < *best { value } else { *best });
-                    continue;
-                }
-                for (best, &slot) in best.iter_mut().zip(fold) {
-                    let value = slots[usize::from(slot)];
-                    *best = if value < *best { value } else { *best };
-                }
-            }
+        best.resize(masks * self.tally.states, f64::INFINITY);
+        for (best, cells) in best.chunks_exact_mut(masks).zip(cells.chunks_exact_mut(width)) {
+            patterns.fold(cells, best);
         }
         if !live[self.tally.met()] {
             best[masks * self.tally.met()..].fill(f64::INFINITY);
@@ -312,8 +289,7 @@ impl<'n> Relaxation<'n> {
         let values = &mut self.value[own..own + best.len()];
         let fell = values.iter().zip(&best).any(|(old, new)| new < old);
         values.copy_from_slice(&best);
-        self.scratch = (best, slots);
-        self.followed = followed;
+        self.scratch = (best, cells);
         (fell, within)
     }
 
@@ -350,22 +326,29 @@ impl<'n> Relaxation<'n> {
             return path;
         }
         let (mut mask, mut tally) = (0, self.tally.after(0, at));
+        let (mut masks, mut matched) = (Vec::new(), Vec::new());
         loop {
             path.push(at);
             let i = at as usize;
+            let patterns = &self.turns.patterns[i];
+            masks.clear();
+            masks.resize(1 << self.memory.of[i].len(), f64::INFINITY);
+            masks[mask] = 0.0;
+            matched.resize(patterns.cells(), f64::INFINITY);
+            patterns.spread(&masks, &mut matched);
             let met = tally == self.tally.met();
             let end = if met { self.ends[b * n + i] + self.home[i] } else { f64::INFINITY };
             let mut best = (end, None);
             for (next, turn) in self.ways(b, i) {
-                let group = &self.turns.groups(i)[usize::from(turn.group)];
-                let Some(head) = self.turns.head(turn, group, mask) else { continue };
                 let counted = self.tally.after(tally, turn.to);
-                let ahead = next * self.offset[n] + head + turn.counted(counted);
-                let value = turn.cost + self.value[ahead];
-                if value < best.0 {
-                    let mask = head - self.offset[turn.to as usize];
-                    best = (value, Some((next, turn.to, mask, counted)));
-                }
+                self.turns.each_head(turn, |cell, head| {
+                    let ahead = next * self.offset[n] + head + turn.counted(counted);
+                    let value = turn.cost + matched[cell] + self.value[ahead];
+                    if value < best.0 {
+                        let mask = head - self.offset[turn.to as usize];
+                        best = (value, Some((next, turn.to, mask, counted)));
+                    }
+                });
             }
             match best.1 {
                 // A path in one interval could go round; no tour has more stops than this.

@@ -55,7 +55,7 @@ fn bounds_stay_below(document: &Document, intervals: usize) -> bool {
         for reading in [Reading::Tours, Reading::Paths] {
             paths.read(reading);
             paths.evaluate(&ascent.best.prices, budget).unwrap();
-            let most = above - ascent.best.constant + ascent.best.rounding();
+            let most = above - ascent.best.constant + ascent.best.rounding;
             assert!(paths.fix(&ascent.best.prices, most, budget));
         }
         if resource == Resource::Stops {

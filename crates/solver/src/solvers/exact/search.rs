@@ -79,8 +79,8 @@ pub struct Search<'s, 'a, const W: usize> {
     heap: BinaryHeap<Entry>,
     heads: HashMap<Key<W>, u32, rustc_hash::FxBuildHasher>,
     incumbent: &'s mut Incumbent,
-    /// The runs that may follow a label, while it is expanded.
-    ahead: Vec<Run>,
+    /// The runs that may follow a label and what tours that go on so cost at least, while it is expanded.
+    ahead: Vec<(Run, f64)>,
     /// By open demand of that label, its members and how many more of them it needs.
     open: Vec<(Bits<W>, u32)>,
     timetable: Timetable,
@@ -183,9 +183,16 @@ impl<'s, 'a, const W: usize> Search<'s, 'a, W> {
             {
                 in_reach.insert(to);
                 if open_to.contains(to) {
-                    ahead.push(run);
+                    let bound = self.bound(&label, &run).max(entry.bound);
+                    if bound < self.incumbent.cutoff() {
+                        ahead.push((run, bound));
+                    }
                 }
             }
+        }
+        if ahead.is_empty() {
+            self.ahead = ahead;
+            return;
         }
         // Where no detour is a short cut, who cannot be reached now never can.
         let mut left = in_reach;
@@ -199,9 +206,9 @@ impl<'s, 'a, const W: usize> Search<'s, 'a, W> {
             (members, model.demands[d as usize].needs - members.common(&label.served))
         }));
         if self.timetable.keeps(model, &label.run, &open, &mut left) {
-            for run in &ahead {
+            for (run, bound) in &ahead {
                 if left.contains(run.node) && self.timetable.admits(&label.run, run) {
-                    self.extend(&label, entry, *run);
+                    self.extend(&label, entry.label, *run, *bound);
                 }
             }
         }
@@ -209,25 +216,30 @@ impl<'s, 'a, const W: usize> Search<'s, 'a, W> {
         self.ahead = ahead;
     }
 
-    fn extend(&mut self, label: &Label<W>, entry: Entry, run: Run) {
-        let model = self.model;
-        let to = run.node;
+    /// What every tour costs at least that goes on from a label so.
+    fn bound(&self, label: &Label<W>, run: &Run) -> f64 {
+        let (model, to) = (self.model, run.node);
+        let served = |c| c == to || label.served.contains(c);
+        let gain = label.gain + model.gains[to as usize];
+        let amount = self.amount(run);
+        let stops = label.stops as usize + 1;
+        let tally = self.paths.tally().after(label.tally as usize, to);
+        let ahead = self.paths.go_on(to, amount, stops, tally, served);
+        let energy = self.multipliers.prices.per_j * model.wide.energy_j(run);
+        model.cost(run.distance_m, gain) + energy + self.reduced(label, to) + ahead
+            - self.multipliers.rounding
+    }
+
+    /// The multipliers' constant less the prizes collected.
+    fn reduced(&self, label: &Label<W>, to: u32) -> f64 {
+        let to = to as usize;
+        label.reduced - self.multipliers.prices.prizes[to] + self.model.gains[to]
+    }
+
+    fn extend(&mut self, label: &Label<W>, parent: u32, run: Run, bound: f64) {
+        let (model, to) = (self.model, run.node);
         let mut served = label.served;
         served.insert(to);
-        let gain = label.gain + model.gains[to as usize];
-        let prices = &self.multipliers.prices;
-        let reduced = label.reduced - prices.prizes[to as usize] + model.gains[to as usize];
-        let amount = self.amount(&run);
-        let stops = label.stops + 1;
-        let tally = self.paths.tally().after(label.tally as usize, to);
-        let ahead = self.paths.go_on(to, amount, stops as usize, tally, |c| served.contains(c));
-        let energy = prices.per_j * model.wide.energy_j(&run);
-        let bound = model.cost(run.distance_m, gain) + energy + reduced + ahead
-            - self.multipliers.rounding();
-        let bound = bound.max(entry.bound);
-        if bound >= self.incumbent.cutoff() {
-            return;
-        }
         let mut open = label.open;
         for &d in &model.of[to as usize] {
             if open.contains(d)
@@ -240,16 +252,16 @@ impl<'s, 'a, const W: usize> Search<'s, 'a, W> {
             run,
             served,
             open,
-            gain,
-            reduced,
-            parent: entry.label,
+            gain: label.gain + model.gains[to as usize],
+            reduced: self.reduced(label, to),
+            parent,
             next: NONE,
-            stops,
-            tally: tally as u16,
+            stops: label.stops + 1,
+            tally: self.paths.tally().after(label.tally as usize, to) as u16,
             dominated: false,
         };
         if let Some(new) = self.insert(new) {
-            self.heap.push(Entry { bound, stops, label: new });
+            self.heap.push(Entry { bound, stops: label.stops + 1, label: new });
             if open.is_empty() {
                 let label = self.labels[new as usize].clone();
                 self.complete(&label, new);
