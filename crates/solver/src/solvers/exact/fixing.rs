@@ -1,7 +1,7 @@
 //! Reduced cost fixing: arcs that no path uses whose cost beats the cutoff are closed for good.
 
 use super::prices::Prices;
-use super::relaxation::{Reading, Relaxation, Resource, Way};
+use super::relaxation::{Reading, Relaxation, Resource};
 use super::turns::Turn;
 use crate::solvers::Budget;
 
@@ -21,6 +21,7 @@ impl Relaxation<'_> {
             reached[state] = prices.of(&network.arcs[a]);
         }
         let mut begun = Begun::default();
+        let mut within = Vec::new();
         let mut kept = 0;
         for b in 0..self.intervals {
             if !budget.lasts() {
@@ -33,12 +34,14 @@ impl Relaxation<'_> {
                 own.iter_mut().zip(before).for_each(|(own, before)| *own = own.min(*before));
             }
             // Paths that stay within an interval are followed until none of them gets cheaper.
-            let within = |way: &Way| usize::from(way.next) == b;
-            let own = self.graph.first[b * n]..self.graph.first[(b + 1) * n];
-            let passes = if self.graph.ways[own].iter().any(within) { n } else { 0 };
-            for _pass in 0..passes {
+            let stays = |&i: &usize| {
+                self.graph.leaving(b * n + i).iter().any(|way| usize::from(way.next) == b)
+            };
+            within.clear();
+            within.extend((0..n).filter(stays));
+            for _pass in 0..n {
                 let mut again = false;
-                for i in 0..n {
+                for &i in &within {
                     if self.begin(b, i, most, &reached, &mut begun) {
                         again |= self.push(b, i, &begun, &mut reached);
                     }
@@ -86,19 +89,17 @@ impl Relaxation<'_> {
         begun.any.contains(&true)
     }
 
-    /// Carries the costs at a candidate over its arcs; whether a cost within the interval fell.
+    /// Carries the costs at a candidate over its ways that stay within the interval; whether a cost fell.
     fn push(&self, b: usize, i: usize, begun: &Begun, reached: &mut [f64]) -> bool {
-        let mut again = false;
-        for (next, turn) in self.ways(b, i) {
-            let mut fell = false;
+        let mut fell = false;
+        for (next, turn) in self.ways(b, i).filter(|(next, _)| *next == b) {
             self.over(i, next, turn, begun, |begun, ahead| {
                 let (through, known) = (begun + turn.cost, reached[ahead]);
                 fell |= through < known;
                 reached[ahead] = if through < known { through } else { known };
             });
-            again |= fell && next == b;
         }
-        again
+        fell
     }
 
     /// Closes a candidate's states that nothing begins and its ways that lead to no path that costs less than

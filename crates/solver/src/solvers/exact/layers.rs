@@ -7,13 +7,11 @@ use super::relaxation::Resource;
 
 /// Layers of time or energy at first.
 pub const INTERVALS: usize = 96;
-const INTERVALS_OF_FEW: usize = 64;
+const INTERVALS_OF_FEW: usize = 72;
 /// Of energy, whose price makes up for what rounding gives away.
-const INTERVALS_OF_ENERGY: usize = 64;
-const FINER_OF_ENERGY: f64 = 2.0;
+const INTERVALS_OF_ENERGY: usize = 48;
 /// So many times as many where that makes every arc lead into a later one.
 const FINER: f64 = 3.0;
-const FINER_OF_FEW: f64 = 6.0;
 /// Candidates at rest up to which a shortest tour is proven with fewer layers at first.
 const FEW: usize = 64;
 /// Arcs over all layers for which paths are laid out at all.
@@ -48,10 +46,7 @@ pub fn layers(
         Resource::Stops => (model.len().max(1), 0.0),
         Resource::Energy => {
             let horizon = instance.capacity_j.max(1e-9);
-            let arcs = &network.arcs[..network.leaving(model.len()).start];
-            let least_j = arcs.iter().map(|arc| arc.energy_j).fold(f64::INFINITY, f64::min);
-            let arrive_later = horizon / least_j;
-            (finer(network, INTERVALS_OF_ENERGY, FINER_OF_ENERGY, arrive_later), horizon)
+            (INTERVALS_OF_ENERGY, horizon)
         }
         Resource::Time => {
             let reachable = (0..model.len()).filter(|&i| network.earliest_s[i].is_finite());
@@ -74,10 +69,11 @@ pub fn layers(
                 horizon = due.fold(1.0, f64::max);
             }
             let horizon = horizon.max(1e-9);
-            let (intervals, times) =
-                if few(model) { (INTERVALS_OF_FEW, FINER_OF_FEW) } else { (INTERVALS, FINER) };
+            if few(model) {
+                return (INTERVALS_OF_FEW, horizon);
+            }
             let arrive_later = horizon / network.least_step(model);
-            (finer(network, intervals, times, arrive_later), horizon)
+            (finer(network, INTERVALS, FINER, arrive_later), horizon)
         }
     }
 }

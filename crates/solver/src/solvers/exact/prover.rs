@@ -16,14 +16,14 @@ use crate::solvers::{Budget, baseline};
 
 /// Steps of the ascent in the first round and in later ones.
 const FIRST_STEPS: u32 = 30;
-const FIRST_STEPS_OF_FEW: u32 = 12;
+const FIRST_STEPS_OF_FEW: u32 = 14;
 const FIRST_STEPS_OF_ENERGY: u32 = 14;
 const STEPS: u32 = 15;
 /// So many more in the first round of few, if as many gained this share of what is open.
 const MORE_STEPS: u32 = 8;
 const WORTH_MORE: f64 = 0.15;
 /// Labels of the first search; each next one may make three times as many, within what memory allows.
-const FIRST_LABELS: usize = 16_000;
+const FIRST_LABELS: usize = 12_000;
 const MOST_LABEL_BYTES: usize = 600 << 20;
 /// The baseline does one iteration for so many labels; where sensors move, an iteration takes long.
 const LABELS_PER_ITERATION: usize = 36;
@@ -44,7 +44,7 @@ const LONG_GAP: f64 = 0.1;
 /// remember more cost less than a second round.
 const FIRST_MEMORY: usize = 2;
 const FIRST_MEMORY_OF_FEW: usize = 4;
-const FIRST_MEMORY_OF_ENERGY: usize = 3;
+const FIRST_MEMORY_OF_ENERGY: usize = 4;
 /// Before that they remember fewer, for a few steps of the ascent.
 const NARROWING_MEMORY: usize = 1;
 const NARROWING_STEPS: u32 = 3;
@@ -95,7 +95,6 @@ impl<'p> Prover<'p, '_, '_> {
         if self.budget.is_spent() {
             return self.left_open(bound);
         }
-        let most_labels = MOST_LABEL_BYTES / Search::<W>::LABEL_BYTES;
         let mut labels = FIRST_LABELS;
         for round in 0..rounds {
             match self.round::<W>(&mut ascent, round, labels) {
@@ -105,7 +104,7 @@ impl<'p> Prover<'p, '_, '_> {
             if self.budget.is_spent() || round + 1 == rounds {
                 break;
             }
-            labels = (3 * labels).min(most_labels);
+            labels = (3 * labels).min(most_labels::<W>());
             let is_long = round > 0 || self.is_open(bound, LONG_GAP);
             self.improve(self.iterations(labels, is_long));
             if self.incumbent.suffices() {
@@ -219,8 +218,11 @@ impl<'p> Prover<'p, '_, '_> {
     }
 
     fn search<const W: usize>(&mut self, ascent: &Ascent, labels: usize) -> End {
-        Search::<W>::new(self.model, &self.paths, &ascent.best, self.incumbent)
-            .run(labels, self.budget)
+        Search::<W>::new(self.model, &self.paths, &ascent.best, self.incumbent).run(
+            labels,
+            most_labels::<W>(),
+            self.budget,
+        )
     }
 
     fn begin(&self) -> Ascent {
@@ -299,11 +301,16 @@ impl<'p> Prover<'p, '_, '_> {
     fn left_open(&self, bound: f64) -> Proof {
         if self.budget.is_spent() && self.model.len() <= SMALL {
             // What a search that had no time at all would say still holds; beyond that size it is known already.
-            return quickly(self.model, self.incumbent, bound, self.budget);
+            return quickly(self.model, self.incumbent, bound, Care::Little);
         }
         let bound = bound.min(self.incumbent.cost).min(self.incumbent.beyond);
         Proof { order: self.incumbent.order.clone(), bound, closed: false }
     }
+}
+
+/// Labels for which there is memory.
+fn most_labels<const W: usize>() -> usize {
+    MOST_LABEL_BYTES / Search::<W>::LABEL_BYTES
 }
 
 fn target(model: &Model<'_>, incumbent: &Incumbent, ascent: &Ascent) -> f64 {

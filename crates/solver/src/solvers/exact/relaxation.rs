@@ -222,14 +222,13 @@ impl<'n> Relaxation<'n> {
             }
             self.value[b * total..(b + 1) * total].fill(f64::INFINITY);
             // Paths that stay within an interval are followed until none of them gets cheaper.
-            for _pass in 0..n.max(1) {
-                let (mut fell, mut within) = (false, false);
-                for i in 0..n {
-                    let (own_fell, own_within) = self.pull(b, i);
-                    fell |= own_fell;
-                    within |= own_within;
+            let within: Vec<usize> = (0..n).filter(|&i| self.pull(b, i).1).collect();
+            for _pass in 1..n {
+                let mut fell = false;
+                for &i in &within {
+                    fell |= self.pull(b, i).0;
                 }
-                if !fell || !within {
+                if !fell {
                     break;
                 }
             }

@@ -44,6 +44,11 @@ struct Label<const W: usize> {
 
 const NONE: u32 = u32::MAX;
 
+/// Bounds rise the more slowly the more labels there are. Where they have come this share of their way to the
+/// incumbent, so many times as many labels mostly bring them there.
+const PROMISING: f64 = 0.62;
+const MORE: usize = 5;
+
 /// The best label is the one with the least bound, the longest among equals.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Entry {
@@ -113,8 +118,11 @@ impl<'s, 'a, const W: usize> Search<'s, 'a, W> {
         }
     }
 
-    /// Searches until nothing is left, or `most` labels were made, or the budget is spent.
-    pub fn run(&mut self, most: usize, budget: &mut Budget<'_>) -> End {
+    /// Searches until nothing is left, or the budget is spent, or so many `labels` were made; where these have brought
+    /// the bound well on its way, more of them, but at `most` so many.
+    pub fn run(&mut self, labels: usize, most: usize, budget: &mut Budget<'_>) -> End {
+        let more = most.min(MORE * labels);
+        let mut limit = most.min(labels);
         let model = self.model;
         let root = Label {
             run: model.wide.departure(),
@@ -136,7 +144,14 @@ impl<'s, 'a, const W: usize> Search<'s, 'a, W> {
             if entry.bound >= self.incumbent.cutoff() {
                 break;
             }
-            if self.labels.len() >= most || !budget.spend() {
+            if self.labels.len() >= limit {
+                let come = (entry.bound - bound) / (self.incumbent.cutoff() - bound);
+                if limit == more || come < PROMISING {
+                    return End::Open(entry.bound);
+                }
+                limit = more;
+            }
+            if !budget.spend() {
                 return End::Open(entry.bound);
             }
             if !self.labels[entry.label as usize].dominated {

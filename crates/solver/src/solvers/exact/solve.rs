@@ -6,7 +6,7 @@ use super::{Aim, Effort, Incumbent, Model, prove};
 use crate::instance::Instance;
 use crate::scenario::Objective;
 use crate::solvers::entry::{Claim, Found};
-use crate::solvers::{Budget, SolverName, baseline, enumerate};
+use crate::solvers::{Budget, Pace, SolverName, baseline, enumerate};
 use crate::tour::{Tour, Value};
 
 /// Iterations of the baseline before the first bound: a good tour of a small instance.
@@ -15,7 +15,7 @@ const FIRST: u64 = 60;
 const FIRST_PER_STOP_OF_SHARE: u64 = 20;
 /// And where nothing moves and metres are the cost, one for so many of the fourth power of the stops, up to a limit:
 /// the more stops, the longer the bounds take and the less they show, while the tour may still have the wrong stops.
-const FOURTH_POWERS_PER_FIRST: u64 = 76;
+const FOURTH_POWERS_PER_FIRST: u64 = 110;
 const MOST_OF_POWER: u64 = 14_000;
 /// In a share where the stops at moving sensors are counted, no more: the proof's own search finds better tours.
 const FIRST_OF_COUNT: u64 = 5;
@@ -40,12 +40,14 @@ pub fn solve(
         Effort::Whole => FIRST,
         Effort::Share => first_of_share(instance, start.len() as u64),
     };
+    let pace = Pace::begin(budget);
     let mut order = improved(instance, start, first, rng, budget);
+    let room = pace.room(budget);
     let mut claim = Claim::None;
     if !is_feasible(instance, &order) {
         let model = Model::new(instance, Aim::AnyTour);
         let mut any = Incumbent::none(&model);
-        let proof = prove(&model, effort, &mut any, rng, budget);
+        let proof = prove(&model, effort, room, &mut any, rng, budget);
         match proof.order {
             Some(feasible) => order = feasible,
             None => {
@@ -61,7 +63,7 @@ pub fn solve(
         let model = Model::new(instance, Aim::Optimum);
         let mut incumbent = Incumbent::none(&model);
         incumbent.offer(&model, order.clone());
-        let proof = prove(&model, effort, &mut incumbent, rng, budget);
+        let proof = prove(&model, effort, room, &mut incumbent, rng, budget);
         claim = match (proof.order, proof.closed) {
             (Some(best), _) => {
                 order = best;

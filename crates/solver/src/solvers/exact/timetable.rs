@@ -17,6 +17,8 @@ struct Job {
     takes_s: f64,
     /// When it must be done, in seconds, with some room for rounding.
     by_s: f64,
+    /// What those before it and itself take, in seconds.
+    until_s: f64,
     /// By how much the first of the stops can be put off before this one is late, in seconds.
     slack_s: f64,
 }
@@ -109,7 +111,7 @@ impl Timetable {
 
     fn fits(&self, run: &Run, job: Job) -> bool {
         let place = self.jobs.partition_point(|other| other.by_s <= job.by_s);
-        let before_s: f64 = self.jobs[..place].iter().map(|job| job.takes_s).sum();
+        let before_s = place.checked_sub(1).map_or(0.0, |last| self.jobs[last].until_s);
         run.depart_s + before_s + job.takes_s <= job.by_s && job.takes_s <= self.after_s[place]
     }
 
@@ -119,7 +121,7 @@ impl Timetable {
         let charge_s = c.charge_j(run.depart_s) * model.wide.transfer_spj;
         let takes_s = self.way_s[candidate as usize] + charge_s;
         let by_s = (c.due_s + charge_s) * (1.0 + 1e-12) + 1e-6;
-        Job { candidate, takes_s, by_s, slack_s: 0.0 }
+        Job { candidate, takes_s, by_s, until_s: 0.0, slack_s: 0.0 }
     }
 
     /// Puts stops in the order of their deadlines; whether all of them are in time.
@@ -130,10 +132,12 @@ impl Timetable {
             jobs.extend(must.iter().map(|candidate| self.job(model, run, candidate)));
         }
         jobs.sort_unstable_by(|a, b| a.by_s.total_cmp(&b.by_s));
-        let (mut done_s, mut least_s) = (run.depart_s, f64::INFINITY);
+        let (mut done_s, mut until_s, mut least_s) = (run.depart_s, 0.0, f64::INFINITY);
         self.before_s.clear();
         for job in &mut jobs {
             done_s += job.takes_s;
+            until_s += job.takes_s;
+            job.until_s = until_s;
             job.slack_s = job.by_s - done_s;
             self.before_s.push(least_s);
             least_s = least_s.min(job.slack_s);
