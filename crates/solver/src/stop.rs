@@ -8,12 +8,6 @@ pub trait StopRule {
     /// Whether to end now, after `iterations` whole iterations.
     fn should_stop(&self, iterations: u64) -> bool;
 
-    /// What is left until it says stop, in a unit of its own that runs down evenly; none if it cannot tell. A search
-    /// fits its last phase to it.
-    fn left(&self) -> Option<f64> {
-        None
-    }
-
     /// Hears that a solver is done with its part, so that a host with a clock can tell how long each took.
     fn done(&self, _solver: &str) {}
 }
@@ -59,10 +53,6 @@ impl<D: Fn() -> f64, C: Fn() -> f64> Limit<D, C> {
 impl<D: Fn() -> f64, C: Fn() -> f64> StopRule for Limit<D, C> {
     fn should_stop(&self, _: u64) -> bool {
         self.is_over()
-    }
-
-    fn left(&self) -> Option<f64> {
-        Some(self.limit_s - (self.dear_s)())
     }
 }
 

@@ -5,9 +5,6 @@ use std::cell::RefCell;
 use super::SolverName;
 use crate::stop::StopRule;
 
-/// Of the iterations that a budget seems to have room for, the share that is counted on.
-const SURE: f64 = 0.97;
-
 /// Counts iterations over all phases of a solve and asks the stop rule once after each.
 pub struct Budget<'a> {
     stop: &'a dyn StopRule,
@@ -72,26 +69,5 @@ impl<'a> Budget<'a> {
     /// Iterations so far.
     pub fn iterations(&self) -> u64 {
         self.iterations
-    }
-}
-
-/// How fast a budget runs down, from a moment on.
-pub struct Pace {
-    left: Option<f64>,
-    iterations: u64,
-}
-
-impl Pace {
-    /// From now on.
-    pub fn begin(budget: &Budget<'_>) -> Self {
-        Self { left: budget.stop.left(), iterations: budget.iterations }
-    }
-
-    /// Iterations that the budget still has room for, if they go on as they did; none if that cannot be told.
-    pub fn room(&self, budget: &Budget<'_>) -> Option<u64> {
-        let done = budget.iterations.saturating_sub(self.iterations);
-        let (before, left) = (self.left?, budget.stop.left()?);
-        let each = (before - left) / done as f64;
-        (done > 0 && each > 0.0).then(|| (SURE * left / each) as u64)
     }
 }

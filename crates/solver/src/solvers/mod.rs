@@ -26,7 +26,7 @@ mod shortcut;
 mod tree;
 
 pub use acs::AcsOptions;
-pub use budget::{Budget, Pace};
+pub use budget::Budget;
 pub use entry::{
     Contender, Options, Outcome, PolicyUse, Unavailable, empty_plan, plan_from_order, solve,
     solve_compiled, solve_with,

@@ -11,7 +11,7 @@ use crate::local_search::{Neighbours, descend, squeeze};
 use crate::scenario::Objective;
 use crate::solvers::entry::{Claim, Found};
 use crate::solvers::partial::{Partial, gain};
-use crate::solvers::{Budget, Pace, SolverName, enumerate, greedy, shortcut};
+use crate::solvers::{Budget, SolverName, enumerate, greedy, shortcut};
 use crate::tour::Value;
 
 /// Temperature at the beginning and the end of an annealing run, in scales of the cost.
@@ -167,12 +167,7 @@ impl<'a, 'b> Search<'a, 'b> {
             length = fitted(length, iterations);
         }
         let mut improved = budget.iterations();
-        let mut pace = Pace::begin(budget);
         for run in 1.. {
-            if let Some(room) = pace.room(budget) {
-                length = fitted(length, room);
-            }
-            pace = Pace::begin(budget);
             // Every third run spends what breaks ties sparingly, rather than what is scarce.
             self.instance.effort = if run % 3 == 2 { self.tie } else { self.scarce };
             self.cost.price(&self.instance, &self.best.tour);

@@ -15,6 +15,7 @@ mod clusters;
 mod counting;
 mod fixing;
 mod incumbent;
+mod label;
 mod layers;
 mod layout;
 mod memory;
@@ -38,6 +39,8 @@ mod relaxation;
 #[cfg(test)]
 mod relaxation_tests;
 mod search;
+#[cfg(test)]
+mod search_tests;
 mod solve;
 mod spanning;
 mod tally;

@@ -4,7 +4,7 @@ use rand_pcg::Pcg64Mcg;
 
 use super::counting;
 use super::incumbent::Incumbent;
-use super::layers::{INTERVALS, MOST_ARRIVALS, layers, resource};
+use super::layers::{INTERVALS, MOST_ARRIVALS};
 use super::model::{Aim, Model};
 use super::network::Network;
 use super::prover::Prover;
@@ -40,20 +40,13 @@ const SHARES: [(u32, usize); 3] = [(4, 200_000), (2, 1_000_000), (1, 3_000_000)]
 const MOST_MOVING_ARCS_OF_SHARE: usize = 500_000;
 /// In a share where rewards count, so many before the first bound: the more arcs, the longer it takes and the less it
 /// shows.
-const SQUARED_ARCS_PER_ITERATION: u64 = 48_000;
+const CUBED_ARCS_PER_ITERATION: u64 = 30_000_000;
 const MOST_ITERATIONS_OF_ARCS: u64 = 14_000;
 
-/// Arcs over all layers that a first round of bounds and a search take as long for as an iteration of the baseline.
-const ARCS_PER_ITERATION: f64 = 32.0;
-/// A share begins a better tour's proof only where there is room for so many first rounds.
-const ROUNDS_OF_ROOM: f64 = 2.0;
-
-/// Proves on, from what is known, until closed or the budget is spent. The budget may be known to have `room` for so
-/// many iterations of the baseline: a share does not begin what it could hardly end.
+/// Proves on, from what is known, until closed or the budget is spent.
 pub fn prove(
     model: &Model<'_>,
     effort: Effort,
-    room: Option<u64>,
     incumbent: &mut Incumbent,
     rng: &mut Pcg64Mcg,
     budget: &mut Budget<'_>,
@@ -68,12 +61,8 @@ pub fn prove(
     }
     let words = model.len().max(model.demands.len()).div_ceil(64);
     if budget.is_spent() || words > 8 || model.len() * model.len() * INTERVALS > MOST_ARRIVALS {
-        return quickly(
-            model,
-            incumbent,
-            known,
-            if budget.is_spent() { Care::Little } else { Care::Whole },
-        );
+        let care = if budget.is_spent() { Care::Little } else { Care::Whole };
+        return quickly(model, incumbent, known, care);
     }
     let network = Network::new(model);
     let arrivals = network.arcs.len() * INTERVALS;
@@ -84,22 +73,11 @@ pub fn prove(
     if rounds == 0 {
         return quickly(model, incumbent, known, Care::Whole);
     }
-    let paths_by = resource(model);
-    if effort == Effort::Share
-        && model.aim == Aim::Optimum
-        && !model.wide.moving
-        && !model.length_counts
-        && let Some(room) = room
-    {
-        let arcs = network.arcs.len() * layers(model, &network, incumbent, paths_by).0;
-        if ROUNDS_OF_ROOM * arcs as f64 / ARCS_PER_ITERATION > room as f64 {
-            return quickly(model, incumbent, known, Care::Little);
-        }
-    }
     let rewards = model.wide.scenario.objective == Objective::MaxReward && !model.wide.moving;
     if effort == Effort::Share && model.aim == Aim::Optimum && rewards {
         let arcs = network.arcs.len() as u64;
-        let iterations = (arcs * arcs / SQUARED_ARCS_PER_ITERATION).min(MOST_ITERATIONS_OF_ARCS);
+        let iterations = arcs.saturating_pow(3) / CUBED_ARCS_PER_ITERATION;
+        let iterations = iterations.min(MOST_ITERATIONS_OF_ARCS);
         let stops = incumbent.order.as_ref().map_or(0, Vec::len) as u64;
         improve(model, baseline::whole_runs(stops, iterations), incumbent, rng, budget);
         if budget.is_spent() {

@@ -50,6 +50,10 @@ const NARROWING_MEMORY: usize = 1;
 const NARROWING_STEPS: u32 = 3;
 /// Steps of a round after which arcs are closed.
 const EARLY: u32 = 2;
+/// Partial tours of each length that are followed, before a search, to find a better tour soon; and already then where
+/// energy is scarce: there bounds point to good tours early.
+const DIVE: usize = 30;
+const FIRST_DIVE_OF_ENERGY: usize = 10;
 /// Beyond this many candidates a bound without paths is taken first.
 const SMALL: usize = 128;
 
@@ -179,8 +183,13 @@ impl<'p> Prover<'p, '_, '_> {
                 known = ascent.best.bound;
             }
             // What is closed early makes every further step cheaper.
-            if step == EARLY && !self.fix(&ascent.best) {
-                break;
+            if step == EARLY {
+                if !self.fix(&ascent.best) {
+                    break;
+                }
+                if self.paths.resource() == Resource::Energy {
+                    self.dive::<W>(ascent, FIRST_DIVE_OF_ENERGY);
+                }
             }
             let done = ascent.climb(model, &mut self.paths, target, self.budget);
             if ascent.best.bound >= self.incumbent.cutoff() {
@@ -206,6 +215,10 @@ impl<'p> Prover<'p, '_, '_> {
         if !self.fix(&ascent.best) {
             return End::Open(ascent.best.bound);
         }
+        self.dive::<W>(ascent, DIVE);
+        if self.incumbent.suffices() {
+            return End::Closed;
+        }
         self.search::<W>(ascent, labels)
     }
 
@@ -223,6 +236,12 @@ impl<'p> Prover<'p, '_, '_> {
             most_labels::<W>(),
             self.budget,
         )
+    }
+
+    /// Looks for a better tour where the bounds point.
+    fn dive<const W: usize>(&mut self, ascent: &Ascent, width: usize) {
+        Search::<W>::new(self.model, &self.paths, &ascent.best, self.incumbent)
+            .dive(width, self.budget);
     }
 
     fn begin(&self) -> Ascent {

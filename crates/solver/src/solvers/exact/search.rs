@@ -4,10 +4,10 @@
 //! follow it no worse. Labels whose bound does not beat the incumbent are dropped, so that an empty queue
 //! proves the incumbent.
 
-use std::cmp::Ordering;
 use std::collections::{BinaryHeap, HashMap};
 
 use super::bits::Bits;
+use super::label::{Entry, Label, NONE, dominates};
 use super::multipliers::Multipliers;
 use super::relaxation::{Relaxation, Resource};
 use super::timetable::Timetable;
@@ -24,53 +24,10 @@ pub enum End {
     Open(f64),
 }
 
-#[derive(Clone, Debug)]
-struct Label<const W: usize> {
-    run: Run,
-    served: Bits<W>,
-    /// Demands not yet met.
-    open: Bits<W>,
-    gain: f64,
-    /// Multipliers' constant less the prizes collected.
-    reduced: f64,
-    parent: u32,
-    /// The label before it under the same key.
-    next: u32,
-    stops: u32,
-    /// State of the paths' tally.
-    tally: u16,
-    dominated: bool,
-}
-
-const NONE: u32 = u32::MAX;
-
 /// Bounds rise the more slowly the more labels there are. Where they have come this share of their way to the
 /// incumbent, so many times as many labels mostly bring them there.
 const PROMISING: f64 = 0.62;
 const MORE: usize = 5;
-
-/// The best label is the one with the least bound, the longest among equals.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Entry {
-    bound: f64,
-    stops: u32,
-    label: u32,
-}
-
-impl Eq for Entry {}
-
-impl Ord for Entry {
-    fn cmp(&self, other: &Self) -> Ordering {
-        let bound = other.bound.total_cmp(&self.bound);
-        bound.then(self.stops.cmp(&other.stops)).then(other.label.cmp(&self.label))
-    }
-}
-
-impl PartialOrd for Entry {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
 
 type Key<const W: usize> = (Bits<W>, Bits<W>, u32);
 
@@ -123,23 +80,8 @@ impl<'s, 'a, const W: usize> Search<'s, 'a, W> {
     pub fn run(&mut self, labels: usize, most: usize, budget: &mut Budget<'_>) -> End {
         let more = most.min(MORE * labels);
         let mut limit = most.min(labels);
-        let model = self.model;
-        let root = Label {
-            run: model.wide.departure(),
-            served: Bits::EMPTY,
-            open: Bits::of(0..model.demands.len() as u32),
-            gain: 0.0,
-            reduced: self.multipliers.constant,
-            parent: NONE,
-            next: NONE,
-            stops: 0,
-            tally: 0,
-            dominated: false,
-        };
-        self.complete(&root, NONE);
         let bound = self.multipliers.bound;
-        self.labels.push(root);
-        self.heap.push(Entry { bound, stops: 0, label: 0 });
+        self.begin();
         while let Some(entry) = self.heap.pop() {
             if entry.bound >= self.incumbent.cutoff() {
                 break;
@@ -162,6 +104,43 @@ impl<'s, 'a, const W: usize> Search<'s, 'a, W> {
             }
         }
         End::Closed
+    }
+
+    /// The tour without stops, from which all others go on.
+    fn begin(&mut self) {
+        let model = self.model;
+        let root = Label {
+            run: model.wide.departure(),
+            served: Bits::EMPTY,
+            open: Bits::of(0..model.demands.len() as u32),
+            gain: 0.0,
+            reduced: self.multipliers.constant,
+            parent: NONE,
+            next: NONE,
+            stops: 0,
+            tally: 0,
+            dominated: false,
+        };
+        self.complete(&root, NONE);
+        self.labels.push(root);
+        self.heap.push(Entry { bound: self.multipliers.bound, stops: 0, label: 0 });
+    }
+
+    /// Looks for a better tour and proves nothing: of the partial tours with as many stops, the `width` best are
+    /// followed.
+    pub fn dive(&mut self, width: usize, budget: &mut Budget<'_>) {
+        self.begin();
+        while !self.heap.is_empty() && !self.incumbent.suffices() && budget.spend() {
+            let level: Vec<Entry> = std::iter::from_fn(|| self.heap.pop()).take(width).collect();
+            self.heap.clear();
+            for entry in level {
+                if entry.bound < self.incumbent.cutoff()
+                    && !self.labels[entry.label as usize].dominated
+                {
+                    self.expand(entry);
+                }
+            }
+        }
     }
 
     fn expand(&mut self, entry: Entry) {
@@ -368,16 +347,4 @@ impl<'s, 'a, const W: usize> Search<'s, 'a, W> {
         order.reverse();
         order
     }
-}
-
-fn dominates<const W: usize>(model: &Model<'_>, a: &Label<W>, b: &Label<W>) -> bool {
-    let distance = !model.length_counts || a.run.distance_m <= b.run.distance_m;
-    let energy = !model.energy_counts || model.wide.energy_j(&a.run) <= model.wide.energy_j(&b.run);
-    let time = if model.wide.moving && (model.length_counts || model.energy_counts) {
-        // Two labels at one moving sensor stand in different places unless they are there at once.
-        a.run.arrive_s == b.run.arrive_s
-    } else {
-        !model.time_counts || a.run.depart_s <= b.run.depart_s
-    };
-    distance && energy && time
 }

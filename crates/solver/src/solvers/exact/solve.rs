@@ -6,7 +6,7 @@ use super::{Aim, Effort, Incumbent, Model, prove};
 use crate::instance::Instance;
 use crate::scenario::Objective;
 use crate::solvers::entry::{Claim, Found};
-use crate::solvers::{Budget, Pace, SolverName, baseline, enumerate};
+use crate::solvers::{Budget, SolverName, baseline, enumerate};
 use crate::tour::{Tour, Value};
 
 /// Iterations of the baseline before the first bound: a good tour of a small instance.
@@ -40,14 +40,12 @@ pub fn solve(
         Effort::Whole => FIRST,
         Effort::Share => first_of_share(instance, start.len() as u64),
     };
-    let pace = Pace::begin(budget);
     let mut order = improved(instance, start, first, rng, budget);
-    let room = pace.room(budget);
     let mut claim = Claim::None;
     if !is_feasible(instance, &order) {
         let model = Model::new(instance, Aim::AnyTour);
         let mut any = Incumbent::none(&model);
-        let proof = prove(&model, effort, room, &mut any, rng, budget);
+        let proof = prove(&model, effort, &mut any, rng, budget);
         match proof.order {
             Some(feasible) => order = feasible,
             None => {
@@ -63,7 +61,7 @@ pub fn solve(
         let model = Model::new(instance, Aim::Optimum);
         let mut incumbent = Incumbent::none(&model);
         incumbent.offer(&model, order.clone());
-        let proof = prove(&model, effort, room, &mut incumbent, rng, budget);
+        let proof = prove(&model, effort, &mut incumbent, rng, budget);
         claim = match (proof.order, proof.closed) {
             (Some(best), _) => {
                 order = best;

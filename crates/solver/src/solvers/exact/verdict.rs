@@ -23,7 +23,7 @@ pub fn decide(instance: &Instance<'_>, budget: &mut Budget<'_>) -> Verdict {
     let model = Model::new(instance, Aim::AnyTour);
     let mut incumbent = Incumbent::none(&model);
     let mut rng = Pcg64Mcg::seed_from_u64(0);
-    let proof = prove(&model, Effort::Whole, None, &mut incumbent, &mut rng, budget);
+    let proof = prove(&model, Effort::Whole, &mut incumbent, &mut rng, budget);
     match proof.order {
         Some(order) => Verdict::Feasible(order),
         None if proof.closed && incumbent.beyond == f64::INFINITY => Verdict::Infeasible,

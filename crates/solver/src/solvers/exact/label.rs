@@ -1,0 +1,65 @@
+//! Partial tours, which of them comes first, and which of them make others needless.
+
+use std::cmp::Ordering;
+
+use super::Model;
+use super::bits::Bits;
+use crate::tour::Run;
+
+/// No label.
+pub const NONE: u32 = u32::MAX;
+
+/// A partial tour.
+#[derive(Clone, Debug)]
+pub struct Label<const W: usize> {
+    pub run: Run,
+    pub served: Bits<W>,
+    /// Demands not yet met.
+    pub open: Bits<W>,
+    pub gain: f64,
+    /// Multipliers' constant less the prizes collected.
+    pub reduced: f64,
+    pub parent: u32,
+    /// The label before it under the same key.
+    pub next: u32,
+    pub stops: u32,
+    /// State of the paths' tally.
+    pub tally: u16,
+    pub dominated: bool,
+}
+
+/// The best label is the one with the least bound, the longest among equals.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Entry {
+    pub bound: f64,
+    pub stops: u32,
+    pub label: u32,
+}
+
+impl Eq for Entry {}
+
+impl Ord for Entry {
+    fn cmp(&self, other: &Self) -> Ordering {
+        let bound = other.bound.total_cmp(&self.bound);
+        bound.then(self.stops.cmp(&other.stops)).then(other.label.cmp(&self.label))
+    }
+}
+
+impl PartialOrd for Entry {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+/// Whether whatever follows the second of two labels under one key can follow the first no worse.
+pub fn dominates<const W: usize>(model: &Model<'_>, a: &Label<W>, b: &Label<W>) -> bool {
+    let distance = !model.length_counts || a.run.distance_m <= b.run.distance_m;
+    let energy = !model.energy_counts || model.wide.energy_j(&a.run) <= model.wide.energy_j(&b.run);
+    let time = if model.wide.moving && (model.length_counts || model.energy_counts) {
+        // Two labels at one moving sensor stand in different places unless they are there at once.
+        a.run.arrive_s == b.run.arrive_s
+    } else {
+        !model.time_counts || a.run.depart_s <= b.run.depart_s
+    };
+    distance && energy && time
+}
