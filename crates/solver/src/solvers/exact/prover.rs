@@ -14,10 +14,9 @@ use super::relaxation::{Reading, Relaxation, Resource};
 use super::search::{End, Search};
 use crate::solvers::{Budget, baseline};
 
-/// Steps of the ascent in the first round and in later ones.
+/// Steps of the ascent in the first round, the same where the proof may be short, and in later ones.
 const FIRST_STEPS: u32 = 30;
-const FIRST_STEPS_OF_FEW: u32 = 14;
-const FIRST_STEPS_OF_ENERGY: u32 = 14;
+const FIRST_STEPS_OF_SHORT: u32 = 14;
 const STEPS: u32 = 15;
 /// So many more in the first round of few, if as many gained this share of what is open.
 const MORE_STEPS: u32 = 8;
@@ -40,11 +39,10 @@ const ITERATIONS_OF_WIDE_GAP: u64 = 300;
 const ITERATIONS_OF_WIDE_GAP_IN_SHARE: u64 = 2_000;
 /// Where the first search leaves this share open, one more will hardly do.
 const LONG_GAP: f64 = 0.1;
-/// Neighbours that every candidate remembers from the beginning; where candidates are few, paths that
+/// Neighbours that every candidate remembers from the beginning; where the proof may be short, paths that
 /// remember more cost less than a second round.
 const FIRST_MEMORY: usize = 2;
-const FIRST_MEMORY_OF_FEW: usize = 4;
-const FIRST_MEMORY_OF_ENERGY: usize = 4;
+const FIRST_MEMORY_OF_SHORT: usize = 4;
 /// Before that they remember fewer, for a few steps of the ascent.
 const NARROWING_MEMORY: usize = 1;
 const NARROWING_STEPS: u32 = 3;
@@ -149,13 +147,14 @@ impl<'p> Prover<'p, '_, '_> {
         End::Open(bound)
     }
 
+    /// Whether one round may be the proof: candidates are few, or energy has its price.
+    fn is_short(&self) -> bool {
+        few(self.model) || self.paths.resource() == Resource::Energy
+    }
+
     /// Neighbours that each candidate remembers in the first round.
     fn first_memory(&self) -> usize {
-        match self.paths.resource() {
-            _ if few(self.model) => FIRST_MEMORY_OF_FEW,
-            Resource::Energy => FIRST_MEMORY_OF_ENERGY,
-            _ => FIRST_MEMORY,
-        }
+        if self.is_short() { FIRST_MEMORY_OF_SHORT } else { FIRST_MEMORY }
     }
 
     /// Raises the bound, closes arcs, searches.
@@ -166,8 +165,7 @@ impl<'p> Prover<'p, '_, '_> {
         let model = self.model;
         let target = target(model, self.incumbent, ascent);
         let steps = match round {
-            0 if few(model) => FIRST_STEPS_OF_FEW,
-            0 if self.paths.resource() == Resource::Energy => FIRST_STEPS_OF_ENERGY,
+            0 if self.is_short() => FIRST_STEPS_OF_SHORT,
             0 => FIRST_STEPS,
             _ => STEPS,
         };
@@ -187,8 +185,10 @@ impl<'p> Prover<'p, '_, '_> {
                 if !self.fix(&ascent.best) {
                     break;
                 }
-                if self.paths.resource() == Resource::Energy {
-                    self.dive::<W>(ascent, FIRST_DIVE_OF_ENERGY);
+                if self.paths.resource() == Resource::Energy
+                    && self.dive::<W>(ascent, FIRST_DIVE_OF_ENERGY)
+                {
+                    return End::Closed;
                 }
             }
             let done = ascent.climb(model, &mut self.paths, target, self.budget);
@@ -215,8 +215,7 @@ impl<'p> Prover<'p, '_, '_> {
         if !self.fix(&ascent.best) {
             return End::Open(ascent.best.bound);
         }
-        self.dive::<W>(ascent, DIVE);
-        if self.incumbent.suffices() {
+        if self.dive::<W>(ascent, DIVE) {
             return End::Closed;
         }
         self.search::<W>(ascent, labels)
@@ -238,10 +237,12 @@ impl<'p> Prover<'p, '_, '_> {
         )
     }
 
-    /// Looks for a better tour where the bounds point.
-    fn dive<const W: usize>(&mut self, ascent: &Ascent, width: usize) {
+    /// Looks for a better tour where the bounds point; whether that is all that was asked for.
+    #[must_use]
+    fn dive<const W: usize>(&mut self, ascent: &Ascent, width: usize) -> bool {
         Search::<W>::new(self.model, &self.paths, &ascent.best, self.incumbent)
             .dive(width, self.budget);
+        self.incumbent.suffices()
     }
 
     fn begin(&self) -> Ascent {
