@@ -179,6 +179,9 @@ impl Tour {
         candidate: u32,
         mut overlooked: impl FnMut() -> bool,
     ) -> Option<Insertion> {
+        if !self.has_room(instance, candidate) {
+            return None;
+        }
         let via = candidate as usize;
         // Most time of a search is spent here: what can be looked up once is.
         let position = match instance.travel.row_m(via) {
@@ -189,6 +192,18 @@ impl Tour {
             }
         };
         self.insertion(instance, position?, candidate)
+    }
+
+    /// Whether a candidate could be charged if the way to it took nothing. Only where totals decide.
+    fn has_room(&self, instance: &Instance<'_>, candidate: u32) -> bool {
+        // Over it the way may be shorter where distances break the triangle inequality.
+        if !instance.metric {
+            return true;
+        }
+        let joules = instance.candidates[candidate as usize].charge_j(0.0);
+        let now = self.finished();
+        now.arrive_s + joules * instance.transfer_spj <= instance.timespan_s
+            && instance.energy_j(now) + joules <= instance.capacity_j
     }
 
     #[inline]

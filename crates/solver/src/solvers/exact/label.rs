@@ -1,6 +1,7 @@
 //! Partial tours, which of them comes first, and which of them make others needless.
 
 use std::cmp::Ordering;
+use std::hash::BuildHasher;
 
 use super::Model;
 use super::bits::Bits;
@@ -49,6 +50,17 @@ impl PartialOrd for Entry {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         Some(self.cmp(other))
     }
+}
+
+/// A number that is the same for labels that are interchangeable, and mostly another for others.
+pub fn key<const W: usize>(label: &Label<W>, useful: &Bits<W>) -> u64 {
+    rustc_hash::FxBuildHasher.hash_one((label.served.both(useful), label.open, label.run.node))
+}
+
+/// Whether what follows one label can follow another: they stand at the same place, the same demands are open, and
+/// of those whose visits matter, the `useful` ones, they served the same.
+pub fn is_interchangeable<const W: usize>(a: &Label<W>, b: &Label<W>, useful: &Bits<W>) -> bool {
+    a.run.node == b.run.node && a.open == b.open && a.served.both(useful) == b.served.both(useful)
 }
 
 /// Whether whatever follows the second of two labels under one key can follow the first no worse.

@@ -7,7 +7,7 @@
 use std::collections::{BinaryHeap, HashMap};
 
 use super::bits::Bits;
-use super::label::{Entry, Label, NONE, dominates};
+use super::label::{Entry, Label, NONE, dominates, is_interchangeable, key};
 use super::multipliers::Multipliers;
 use super::relaxation::{Relaxation, Resource};
 use super::timetable::Timetable;
@@ -29,17 +29,17 @@ pub enum End {
 const PROMISING: f64 = 0.62;
 const MORE: usize = 5;
 
-type Key<const W: usize> = (Bits<W>, Bits<W>, u32);
-
 /// A search under fixed completion bounds.
 pub struct Search<'s, 'a, const W: usize> {
     model: &'s Model<'a>,
     paths: &'s Relaxation<'s>,
     multipliers: &'s Multipliers,
+    all: Bits<W>,
     members: Vec<Bits<W>>,
     labels: Vec<Label<W>>,
     heap: BinaryHeap<Entry>,
-    heads: HashMap<Key<W>, u32, rustc_hash::FxBuildHasher>,
+    /// By key, the last label made under it.
+    heads: HashMap<u64, u32, rustc_hash::FxBuildHasher>,
     incumbent: &'s mut Incumbent,
     /// The runs that may follow a label and what tours that go on so cost at least, while it is expanded.
     ahead: Vec<(Run, f64)>,
@@ -51,7 +51,7 @@ pub struct Search<'s, 'a, const W: usize> {
 impl<'s, 'a, const W: usize> Search<'s, 'a, W> {
     /// Memory that a label takes, with its places in the queue and under its key.
     pub const LABEL_BYTES: usize =
-        size_of::<Label<W>>() + size_of::<Entry>() + 2 * size_of::<(Key<W>, u32)>();
+        size_of::<Label<W>>() + size_of::<Entry>() + 2 * size_of::<(u64, u32)>();
 
     pub fn new(
         model: &'s Model<'a>,
@@ -64,6 +64,7 @@ impl<'s, 'a, const W: usize> Search<'s, 'a, W> {
             model,
             paths,
             multipliers,
+            all: Bits::of(0..model.len() as u32),
             members,
             labels: Vec::new(),
             heap: BinaryHeap::new(),
@@ -121,8 +122,8 @@ impl<'s, 'a, const W: usize> Search<'s, 'a, W> {
             tally: 0,
             dominated: false,
         };
-        self.complete(&root, NONE);
         self.labels.push(root);
+        self.complete(0);
         self.heap.push(Entry { bound: self.multipliers.bound, stops: 0, label: 0 });
     }
 
@@ -144,54 +145,64 @@ impl<'s, 'a, const W: usize> Search<'s, 'a, W> {
     }
 
     fn expand(&mut self, entry: Entry) {
-        let model = self.model;
         let label = self.labels[entry.label as usize].clone();
-        let mut pool = Bits::<W>::EMPTY;
-        if model.useful_only {
-            for d in label.open.iter() {
-                pool = pool.union(&self.members[d as usize]);
-            }
-        } else {
-            pool = Bits::of(0..model.len() as u32);
+        let mut pool = self.all;
+        if self.model.useful_only {
+            let asked = label.open.iter().map(|d| &self.members[d as usize]);
+            pool = asked.fold(Bits::EMPTY, |pool, members| pool.union(members));
+        }
+        pool = pool.minus(&label.served);
+        // No better tour takes a way that is closed; whom it leads to may be reached over others.
+        let mut heads = pool;
+        if label.stops > 0 {
+            let (at, stops) = (label.run.node, label.stops as usize);
+            heads = heads.both(&Bits::of(self.paths.heads(at, self.amount(&label.run), stops)));
         }
         let mut ahead = std::mem::take(&mut self.ahead);
         ahead.clear();
-        // No better tour takes a way that is closed; whom it leads to may be reached over others.
-        let mut open_to = pool;
-        if label.stops > 0 {
-            let amount = self.amount(&label.run);
-            open_to = Bits::of(self.paths.heads(label.run.node, amount, label.stops as usize));
-        }
-        let mut in_reach = Bits::<W>::EMPTY;
-        for to in pool.minus(&label.served).iter() {
-            if !open_to.contains(to) && !model.wide.moving {
-                if self.may_be_in_time(&label.run, to) {
-                    in_reach.insert(to);
-                }
-                continue;
-            }
-            let run = model.wide.step(&label.run, to);
-            if model.wide.in_time(&run)
-                && run.depart_s <= model.wide.timespan_s
-                && model.wide.energy_j(&run) <= model.wide.capacity_j
-            {
+        let mut in_reach = Bits::EMPTY;
+        for to in heads.iter() {
+            let run = self.model.wide.step(&label.run, to);
+            if self.is_legal(&run) {
                 in_reach.insert(to);
-                if open_to.contains(to) {
-                    let bound = self.bound(&label, &run).max(entry.bound);
-                    if bound < self.incumbent.cutoff() {
-                        ahead.push((run, bound));
-                    }
+                let bound = self.bound(&label, &run).max(entry.bound);
+                if bound < self.incumbent.cutoff() {
+                    ahead.push((run, bound));
                 }
             }
         }
-        if ahead.is_empty() {
-            self.ahead = ahead;
+        if !ahead.is_empty() {
+            self.follow(&label, entry.label, &ahead, pool.minus(&heads), in_reach);
+        }
+        self.ahead = ahead;
+    }
+
+    /// Extends a label by those of the runs `ahead` after which every demand can still be met. Of the others whom it
+    /// does not serve, those `in_reach` can be reached from it, those `beyond` perhaps.
+    fn follow(
+        &mut self,
+        label: &Label<W>,
+        index: u32,
+        ahead: &[(Run, f64)],
+        beyond: Bits<W>,
+        in_reach: Bits<W>,
+    ) {
+        let model = self.model;
+        if model.demands.is_empty() {
+            for (run, bound) in ahead {
+                self.extend(label, index, *run, *bound);
+            }
             return;
         }
         // Where no detour is a short cut, who cannot be reached now never can.
         let mut left = in_reach;
         if !model.direct {
-            left = Bits::of(0..model.len() as u32).minus(&label.served);
+            left = self.all.minus(&label.served);
+        } else {
+            beyond
+                .iter()
+                .filter(|&to| self.may_reach(&label.run, to))
+                .for_each(|to| left.insert(to));
         }
         let mut open = std::mem::take(&mut self.open);
         open.clear();
@@ -200,14 +211,13 @@ impl<'s, 'a, const W: usize> Search<'s, 'a, W> {
             (members, model.demands[d as usize].needs - members.common(&label.served))
         }));
         if self.timetable.keeps(model, &label.run, &open, &mut left) {
-            for (run, bound) in &ahead {
+            for (run, bound) in ahead {
                 if left.contains(run.node) && self.timetable.admits(&label.run, run) {
-                    self.extend(&label, entry.label, *run, *bound);
+                    self.extend(label, index, *run, *bound);
                 }
             }
         }
         self.open = open;
-        self.ahead = ahead;
     }
 
     /// What every tour costs at least that goes on from a label so.
@@ -256,16 +266,24 @@ impl<'s, 'a, const W: usize> Search<'s, 'a, W> {
         };
         if let Some(new) = self.insert(new) {
             self.heap.push(Entry { bound, stops: label.stops + 1, label: new });
-            if open.is_empty() {
-                let label = self.labels[new as usize].clone();
-                self.complete(&label, new);
-            }
+            self.complete(new);
         }
     }
 
-    /// Whether a candidate at rest may be reached by its deadline.
-    fn may_be_in_time(&self, run: &Run, to: u32) -> bool {
+    /// Whether all limits were kept so far.
+    fn is_legal(&self, run: &Run) -> bool {
         let instance = &self.model.wide;
+        instance.in_time(run)
+            && run.depart_s <= instance.timespan_s
+            && instance.energy_j(run) <= instance.capacity_j
+    }
+
+    /// Whether a candidate may be reached by its deadline; of one that moves, whether it can.
+    fn may_reach(&self, run: &Run, to: u32) -> bool {
+        let instance = &self.model.wide;
+        if instance.moving {
+            return self.is_legal(&instance.step(run, to));
+        }
         let way_m = instance.distance_m(run.node as usize, to as usize);
         let arrive_s = run.depart_s + way_m * instance.travel_spm;
         arrive_s <= instance.candidates[to as usize].due_s
@@ -282,24 +300,25 @@ impl<'s, 'a, const W: usize> Search<'s, 'a, W> {
 
     /// Adds a label unless another dominates it.
     fn insert(&mut self, mut new: Label<W>) -> Option<u32> {
-        let key = self.key(&new);
-        let head = self.heads.entry(key).or_insert(NONE);
+        let useful = self.useful(&new);
+        let head = self.heads.entry(key(&new, &useful)).or_insert(NONE);
         let mut other = *head;
         while other != NONE {
             let old = &self.labels[other as usize];
-            if !old.dominated && dominates(self.model, old, &new) {
+            if !old.dominated
+                && dominates(self.model, old, &new)
+                && is_interchangeable(old, &new, &useful)
+            {
                 return None;
             }
             other = old.next;
         }
         other = *head;
         while other != NONE {
-            let old = &self.labels[other as usize];
-            let (next, falls) = (old.next, dominates(self.model, &new, old));
-            if falls {
-                self.labels[other as usize].dominated = true;
-            }
-            other = next;
+            let old = &mut self.labels[other as usize];
+            old.dominated |=
+                dominates(self.model, &new, old) && is_interchangeable(old, &new, &useful);
+            other = old.next;
         }
         new.next = *head;
         let index = self.labels.len() as u32;
@@ -308,28 +327,24 @@ impl<'s, 'a, const W: usize> Search<'s, 'a, W> {
         Some(index)
     }
 
-    /// What must be equal for one label to take another's place: where only open demands matter, those
-    /// and their members not yet served; else all that is served.
-    fn key(&self, label: &Label<W>) -> Key<W> {
+    /// Of whom it matters whether a label served them: where only open demands do, their members.
+    fn useful(&self, label: &Label<W>) -> Bits<W> {
         if !self.model.useful_only {
-            return (label.served, Bits::EMPTY, label.run.node);
+            return self.all;
         }
-        let mut useful = Bits::<W>::EMPTY;
-        for d in label.open.iter() {
-            useful = useful.union(&self.members[d as usize]);
-        }
-        (useful.minus(&label.served), label.open, label.run.node)
+        let members = label.open.iter().map(|d| &self.members[d as usize]);
+        members.fold(Bits::EMPTY, |useful, members| useful.union(members))
     }
 
-    /// Takes a label as a whole tour, if it is one.
-    fn complete(&mut self, label: &Label<W>, index: u32) {
-        if !label.open.is_empty() {
+    /// Takes a label as a whole tour, if it is one and a better one.
+    fn complete(&mut self, index: u32) {
+        let (model, label) = (self.model, &self.labels[index as usize]);
+        let cutoff = self.incumbent.cutoff();
+        if !label.open.is_empty() || model.cost(label.run.distance_m, label.gain) >= cutoff {
             return;
         }
-        let model = self.model;
         let home = model.wide.finish(&label.run);
-        let cost = model.cost(home.distance_m, label.gain);
-        if model.wide.keeps_limits(&home) && cost < self.incumbent.cutoff() {
+        if model.wide.keeps_limits(&home) && model.cost(home.distance_m, label.gain) < cutoff {
             let order = self.order(index);
             self.incumbent.offer_wide(model, order);
         }
