@@ -266,9 +266,10 @@ impl<'n> Relaxation<'n> {
         cells.resize(width * self.tally.states, f64::INFINITY);
         cells[width * self.tally.met() + patterns.all()] = self.ends[b * n + i] + self.home[i];
         let live = self.live(b, i);
-        let within = self.graph.leaving(b * n + i).iter().any(|way| usize::from(way.next) == b);
+        let mut within = false;
         for (state, cells) in cells.chunks_exact_mut(width).enumerate().filter(|(s, _)| live[*s]) {
             for (next, turn) in self.ways(b, i) {
+                within |= next == b;
                 let counted = turn.counted(self.tally.after(state, turn.to));
                 let ahead = &self.value[next * total + counted..(next + 1) * total];
                 // Without branches on the values, which follow no order.

@@ -79,6 +79,10 @@ impl Tally {
     /// The state after a visit.
     #[inline]
     pub fn after(&self, state: usize, candidate: u32) -> usize {
+        // Mostly nothing is counted.
+        if self.states == 1 {
+            return 0;
+        }
         self.after[state * self.candidates + candidate as usize] as usize
     }
 
