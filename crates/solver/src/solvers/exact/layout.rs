@@ -14,7 +14,7 @@ impl Relaxation<'_> {
     pub fn split(&mut self, model: &Model<'_>, budget: &mut Budget<'_>) -> bool {
         let n = model.len();
         self.intervals *= 2;
-        self.width /= 2.0;
+        self.per_amount *= 2.0;
         self.ends = vec![f64::INFINITY; self.intervals * n];
         let Some(mut graph) = self.lay_out(model, budget) else { return false };
         let before = match self.reading {
@@ -96,7 +96,7 @@ impl Relaxation<'_> {
     /// The charger at a candidate as early as the interval lets it be, and the energy spent by then; none if
     /// it cannot be there.
     fn stay(&self, model: &Model<'_>, b: usize, i: usize) -> Option<(Run, f64)> {
-        let begin = b as f64 * self.width;
+        let begin = b as f64 / self.per_amount;
         if !self.network.earliest_s[i].is_finite() || b < self.interval(self.least(i)) {
             return None;
         }
@@ -149,24 +149,25 @@ impl Relaxation<'_> {
     ) -> Option<u16> {
         let instance = &model.wide;
         let arc = &self.network.arcs[arc];
-        let candidate = &instance.candidates[arc.to as usize];
-        let arrive_s = if instance.moving {
-            instance.step(run, arc.to).arrive_s
-        } else {
-            candidate.ready_s.max(run.depart_s + arc.leg_s)
-        };
-        let charge_s = candidate.charge_j(arrive_s) * instance.transfer_spj;
-        if arrive_s > candidate.due_s || arrive_s + charge_s > instance.timespan_s {
-            return None;
-        }
         let energy_j = spent_j + arc.energy_j;
         if energy_j > instance.capacity_j {
             return None;
         }
         match self.resource {
-            Resource::Time => Some(self.interval(arrive_s).max(b) as u16),
+            // The network has no arc that is late from the earliest stay on.
             Resource::Energy => Some(self.interval(energy_j).max(b) as u16),
             Resource::Stops => (b + 1 < self.intervals).then_some(b as u16 + 1),
+            Resource::Time => {
+                let candidate = &instance.candidates[arc.to as usize];
+                let arrive_s = if instance.moving {
+                    instance.step(run, arc.to).arrive_s
+                } else {
+                    candidate.ready_s.max(run.depart_s + arc.leg_s)
+                };
+                let charge_s = candidate.charge_j(arrive_s) * instance.transfer_spj;
+                let late = arrive_s > candidate.due_s || arrive_s + charge_s > instance.timespan_s;
+                (!late).then(|| self.interval(arrive_s).max(b) as u16)
+            }
         }
     }
 }

@@ -26,9 +26,18 @@ impl Memory {
                 of[arc.to as usize].push(from as u32);
             }
         }
+        let mut keyed: Vec<(f64, u32)> = Vec::new();
         for (i, near) in of.iter_mut().enumerate() {
-            near.sort_by(|&a, &b| distance(a as usize, i).total_cmp(&distance(b as usize, i)));
-            near.truncate(size);
+            keyed.clear();
+            keyed.extend(near.iter().map(|&other| (distance(other as usize, i), other)));
+            if size < keyed.len() {
+                let nearer =
+                    |a: &(f64, u32), b: &(f64, u32)| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1));
+                keyed.select_nth_unstable_by(size, nearer);
+                keyed.truncate(size);
+            }
+            near.clear();
+            near.extend(keyed.iter().map(|&(_, other)| other));
             near.sort_unstable();
         }
         Self { of }

@@ -59,7 +59,8 @@ impl Network {
             }
             // Near ones first: their heads remember more of what their tails do.
             let begin = network.first[from];
-            network.arcs[begin..].sort_by(|a, b| a.leg_s.total_cmp(&b.leg_s));
+            network.arcs[begin..]
+                .sort_unstable_by(|a, b| a.leg_s.total_cmp(&b.leg_s).then(a.to.cmp(&b.to)));
             network.first.push(network.arcs.len());
         }
         network

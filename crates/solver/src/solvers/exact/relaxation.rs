@@ -66,7 +66,8 @@ pub struct Relaxation<'n> {
     pub(super) network: &'n Network,
     pub(super) resource: Resource,
     pub(super) intervals: usize,
-    pub(super) width: f64,
+    /// Intervals for each second, joule or stop.
+    pub(super) per_amount: f64,
     pub(super) memory: Memory,
     pub(super) tally: Tally,
     /// By candidate, where its states begin in a layer; last, their number. Within a candidate, masks run
@@ -106,15 +107,15 @@ impl<'n> Relaxation<'n> {
         budget: &mut Budget<'_>,
     ) -> Option<Self> {
         let n = model.len();
-        let width = match resource {
+        let per_amount = match resource {
             Resource::Stops => 1.0,
-            _ => horizon / intervals as f64,
+            _ => intervals as f64 / horizon,
         };
         let mut relaxation = Self {
             network,
             resource,
             intervals,
-            width,
+            per_amount,
             memory: Memory { of: Vec::new() },
             tally: Tally::new(model, Vec::new()),
             offset: Vec::new(),
@@ -203,7 +204,7 @@ impl<'n> Relaxation<'n> {
     #[inline]
     pub(super) fn interval(&self, amount: f64) -> usize {
         // A hair less, so that rounding never makes a path later than it is.
-        ((amount * (1.0 - 1e-12) / self.width) as usize).min(self.intervals - 1)
+        ((amount * (1.0 - 1e-12) * self.per_amount) as usize).min(self.intervals - 1)
     }
 
     /// Values of all states for these prices; the least cost of a path from start to end. None if the budget ends

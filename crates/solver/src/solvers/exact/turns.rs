@@ -55,6 +55,8 @@ impl Turns {
         // Of arcs whose heads remember the same: the bit of the head itself, the bits that the head remembers too,
         // and where their cells begin.
         let mut kinds: Vec<(usize, usize, usize)> = Vec::new();
+        // What both ends of an arc remember, as the bits here and there.
+        let mut shared: Vec<(usize, usize)> = Vec::new();
         for from in 0..memory.of.len() {
             let near = &memory.of[from];
             let mut patterns = Patterns::new(near.len());
@@ -64,13 +66,12 @@ impl Turns {
                 let bit = |place: Result<usize, usize>| place.map_or(0, |bit| 1_usize << bit);
                 let back = bit(near.binary_search(&arc.to));
                 let own = bit(ahead.binary_search(&(from as u32)));
-                // What both remember, as the bits here and there.
-                let shared: Vec<(usize, usize)> = near
-                    .iter()
-                    .enumerate()
-                    .map(|(here, other)| (1 << here, bit(ahead.binary_search(other))))
-                    .filter(|(_, there)| *there > 0)
-                    .collect();
+                shared.clear();
+                for (here, other) in near.iter().enumerate() {
+                    if let Ok(there) = ahead.binary_search(other) {
+                        shared.push((1 << here, 1 << there));
+                    }
+                }
                 let kept = shared.iter().fold(0, |kept, (here, _)| kept | here);
                 let known = kinds.iter().find(|kind| (kind.0, kind.1) == (back, kept));
                 let cells = known.map_or(turns.cells.len(), |kind| kind.2);
