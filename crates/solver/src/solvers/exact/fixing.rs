@@ -14,6 +14,7 @@ impl Relaxation<'_> {
         let network = self.network;
         let n = self.offset.len() - 1;
         let total = self.offset[n];
+        self.changed(false);
         let mut reached = vec![f64::INFINITY; self.intervals * total];
         for (a, &b) in network.leaving(n).zip(&self.starts) {
             let to = network.arcs[a].to;

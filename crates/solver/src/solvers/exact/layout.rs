@@ -43,6 +43,7 @@ impl Relaxation<'_> {
         self.other = graph.clone();
         self.graph = graph;
         self.value = vec![f64::INFINITY; self.intervals * self.offset[n]];
+        self.changed(true);
         true
     }
 

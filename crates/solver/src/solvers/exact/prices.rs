@@ -3,7 +3,7 @@
 use super::network::Arc;
 
 /// The prices under which paths are looked for.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Prices {
     /// By candidate, what a visit takes off the cost.
     pub prizes: Vec<f64>,

@@ -91,6 +91,10 @@ pub struct Relaxation<'n> {
     home: Vec<f64>,
     /// By interval and state, the least cost of going on.
     pub(super) value: Vec<f64>,
+    /// The prices that the values are for, and the least cost of a path, while the graph is as it was then.
+    known: Option<(Prices, f64)>,
+    /// Whether the graphs of both readings are the same.
+    alike: bool,
     /// Values of one candidate while they are computed, by mask and by pattern.
     scratch: (Vec<f64>, Vec<f64>),
 }
@@ -128,6 +132,8 @@ impl<'n> Relaxation<'n> {
             turns: Turns::default(),
             home: Vec::new(),
             value: Vec::new(),
+            known: None,
+            alike: true,
             scratch: (Vec::new(), Vec::new()),
         };
         relaxation.graph = relaxation.lay_out(model, budget)?;
@@ -141,6 +147,9 @@ impl<'n> Relaxation<'n> {
         if self.reading != reading {
             std::mem::swap(&mut self.graph, &mut self.other);
             self.reading = reading;
+            if !self.alike {
+                self.known = None;
+            }
         }
     }
 
@@ -151,6 +160,13 @@ impl<'n> Relaxation<'n> {
             Reading::Paths => (&self.other, &mut self.graph),
         };
         paths.clone_from(tours);
+        self.changed(true);
+    }
+
+    /// Says that the graphs are no longer what they were, and whether they are the same now.
+    pub(super) fn changed(&mut self, alike: bool) {
+        self.alike = alike;
+        self.known = None;
     }
 
     /// Number of values that a memory and a tally ask for.
@@ -195,6 +211,7 @@ impl<'n> Relaxation<'n> {
         self.value = vec![f64::INFINITY; self.intervals * self.offset[n]];
         self.memory = memory;
         self.tally = tally;
+        self.changed(self.alike);
         for graph in [&mut self.graph, &mut self.other] {
             self.tally.rule_out(&mut graph.live, self.intervals);
         }
@@ -210,6 +227,12 @@ impl<'n> Relaxation<'n> {
     /// Values of all states for these prices; the least cost of a path from start to end. None if the budget ends
     /// before: then the values mean nothing.
     pub fn evaluate(&mut self, prices: &Prices, budget: &mut Budget<'_>) -> Option<f64> {
+        if let Some((known, value)) = &self.known
+            && known == prices
+        {
+            return Some(*value);
+        }
+        self.known = None;
         let n = self.offset.len() - 1;
         let total = self.offset[n];
         for (turn, arc) in self.turns.all.iter_mut().zip(&self.network.arcs) {
@@ -234,7 +257,10 @@ impl<'n> Relaxation<'n> {
                 }
             }
         }
-        Some(self.first_arc(prices).map_or(self.empty(), |(value, ..)| value.min(self.empty())))
+        let first = self.first_arc(prices).map_or(f64::INFINITY, |(value, ..)| value);
+        let value = first.min(self.empty());
+        self.known = Some((prices.clone(), value));
+        Some(value)
     }
 
     /// States of the tally that are open at a candidate.
