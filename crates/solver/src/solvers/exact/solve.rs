@@ -12,10 +12,12 @@ use crate::tour::{Tour, Value};
 /// Iterations of the baseline before the first bound: a good tour of a small instance.
 const FIRST: u64 = 60;
 /// In a share, whose budget may end before the first bound is there: so many for each stop of the tour, too.
-const FIRST_PER_STOP_OF_SHARE: u64 = 20;
+const FIRST_PER_STOP_OF_SHARE: u64 = 8;
 /// And where nothing moves and metres are the cost, one for so many of the fourth power of the stops, up to a limit:
 /// the more stops, the longer the bounds take and the less they show, while the tour may still have the wrong stops.
+/// Tours of fewer stops than this are proven about as soon as they are searched for.
 const FOURTH_POWERS_PER_FIRST: u64 = 110;
+const FEWEST_STOPS_OF_POWER: u64 = 21;
 const MOST_OF_POWER: u64 = 14_000;
 /// In a share where the stops at moving sensors are counted, no more: the proof's own search finds better tours.
 const FIRST_OF_COUNT: u64 = 5;
@@ -86,6 +88,7 @@ fn first_of_share(instance: &Instance<'_>, stops: u64) -> u64 {
     let power = match instance.scenario.objective {
         Objective::MaxCount if instance.moving => return FIRST_OF_COUNT,
         _ if instance.moving => return first,
+        Objective::MinDistance if stops < FEWEST_STOPS_OF_POWER => 0,
         Objective::MinDistance => stops.saturating_pow(4) / FOURTH_POWERS_PER_FIRST,
         Objective::MaxReward | Objective::MaxCount => 0,
     };
