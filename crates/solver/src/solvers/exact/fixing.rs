@@ -93,7 +93,7 @@ impl Relaxation<'_> {
     /// Carries the costs at a candidate over its ways that stay within the interval; whether a cost fell.
     fn push(&self, b: usize, i: usize, begun: &Begun, reached: &mut [f64]) -> bool {
         let mut fell = false;
-        for (next, turn) in self.ways(b, i).filter(|(next, _)| *next == b) {
+        for (next, turn) in self.ways_from(b, i).filter(|(next, _)| *next == b) {
             self.over(i, next, turn, begun, |begun, ahead| {
                 let (through, known) = (begun + turn.cost, reached[ahead]);
                 fell |= through < known;

@@ -52,6 +52,10 @@ const EARLY: u32 = 2;
 /// energy is scarce: there bounds point to good tours early.
 const DIVE: usize = 30;
 const FIRST_DIVE_OF_ENERGY: usize = 10;
+/// Where energy layers the paths, what narrowing leaves open tells how long the proof may take: with so many ways, a
+/// share looks for a better tour first.
+const WAYS_OF_LONG_PROOF: usize = 36_000;
+const ITERATIONS_OF_MANY_WAYS: u64 = 7_000;
 /// Beyond this many candidates a bound without paths is taken first.
 const SMALL: usize = 128;
 
@@ -141,6 +145,14 @@ impl<'p> Prover<'p, '_, '_> {
             return End::Open(bound);
         }
         self.paths.close_to_paths();
+        let layered_by_energy = self.paths.resource() == Resource::Energy;
+        let is_long = layered_by_energy && self.paths.ways() > WAYS_OF_LONG_PROOF;
+        if is_long && self.effort == Effort::Share {
+            self.improve(ITERATIONS_OF_MANY_WAYS);
+            if self.incumbent.suffices() {
+                return End::Closed;
+            }
+        }
         let memory = nearest(self.model, self.network, self.first_memory());
         let tally = self.paths.tally().clone();
         self.paths.refine(memory, tally);

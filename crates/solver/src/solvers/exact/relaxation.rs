@@ -179,6 +179,11 @@ impl<'n> Relaxation<'n> {
         self.intervals
     }
 
+    /// Ways that are open, over all layers.
+    pub fn ways(&self) -> usize {
+        self.graph.ways.len()
+    }
+
     /// Arcs over all layers.
     pub fn arrivals(&self) -> usize {
         self.intervals * self.network.arcs.len()
@@ -270,7 +275,7 @@ impl<'n> Relaxation<'n> {
     }
 
     /// The ways that leave a candidate in an interval, with what they mean.
-    pub(super) fn ways(&self, b: usize, i: usize) -> impl Iterator<Item = (usize, &Turn)> {
+    pub(super) fn ways_from(&self, b: usize, i: usize) -> impl Iterator<Item = (usize, &Turn)> {
         let n = self.offset.len() - 1;
         let turns = &self.turns.all[self.network.leaving(i)];
         let ways = self.graph.leaving(b * n + i).iter();
@@ -295,7 +300,7 @@ impl<'n> Relaxation<'n> {
         let live = self.live(b, i);
         let mut within = false;
         for (state, cells) in cells.chunks_exact_mut(width).enumerate().filter(|(s, _)| live[*s]) {
-            for (next, turn) in self.ways(b, i) {
+            for (next, turn) in self.ways_from(b, i) {
                 within |= next == b;
                 let counted = turn.counted(self.tally.after(state, turn.to));
                 let ahead = &self.value[next * total + counted..(next + 1) * total];
@@ -366,7 +371,7 @@ impl<'n> Relaxation<'n> {
             let met = tally == self.tally.met();
             let end = if met { self.ends[b * n + i] + self.home[i] } else { f64::INFINITY };
             let mut best = (end, None);
-            for (next, turn) in self.ways(b, i) {
+            for (next, turn) in self.ways_from(b, i) {
                 let counted = self.tally.after(tally, turn.to);
                 self.turns.each_head(turn, |cell, head| {
                     let ahead = next * self.offset[n] + head + turn.counted(counted);
@@ -400,7 +405,7 @@ impl<'n> Relaxation<'n> {
 
     /// The candidates to which ways are open from one that is charged at this amount.
     pub fn heads(&self, candidate: u32, amount: f64, stops: usize) -> impl Iterator<Item = u32> {
-        self.ways(self.layer(amount, stops), candidate as usize).map(|(_, turn)| turn.to)
+        self.ways_from(self.layer(amount, stops), candidate as usize).map(|(_, turn)| turn.to)
     }
 
     /// The layer of a tour that is somewhere with so many stops, this one too.
