@@ -98,6 +98,9 @@ impl<'a> State<'a> {
     /// The place that an insertion function gives a candidate; `None` if it has no legal one. The reward
     /// is yet to be filled in.
     pub fn place(&self, candidate: u32, insert: Insert) -> Option<Action> {
+        if !self.tour().has_room(self.instance, candidate) {
+            return None;
+        }
         let stops = self.tour().len();
         let positions = match insert {
             Insert::Cheapest => 0..=stops,

@@ -3,7 +3,7 @@
 use super::Feature;
 use super::encoder::sq;
 use super::pressure::Pressure;
-use crate::framework::{Action, Episode, Insert, Scales, State};
+use crate::framework::{Action, Episode, Insert, Scales};
 use crate::solvers::gain;
 use crate::tour::{Insertion, Tour};
 
@@ -33,7 +33,14 @@ impl Ahead {
             _ => pressure.on(state, action.candidate),
         };
         let weights: Vec<f64> = actions.iter().map(weight).collect();
-        let mut view = View { episode, weights, tour: state.tour().clone(), lost: Vec::new() };
+        let detour_m = |action: &Action| {
+            let (tour, place) = (state.tour(), action.insertion.position);
+            tour.detour_m(state.instance(), place, action.candidate)
+        };
+        let untimed = state.instance().untimed;
+        let detours_m = actions.iter().filter(|_| untimed).map(detour_m).collect();
+        let tour = state.tour().clone();
+        let mut view = View { episode, weights, detours_m, tour, lost: Vec::new() };
         Self { after: (0..actions.len()).map(|index| view.after(index)).collect() }
     }
 
@@ -54,6 +61,8 @@ impl Ahead {
 struct View<'a, 'b> {
     episode: &'a Episode<'b>,
     weights: Vec<f64>,
+    /// By action, metres by which it lengthens the way now; where totals decide.
+    detours_m: Vec<f64>,
     /// Room for the tour after an action.
     tour: Tour,
     /// By demand, members that are lost.
@@ -70,14 +79,14 @@ impl View<'_, '_> {
         self.lost.clear();
         self.lost.resize(instance.demands.demands.len(), 0);
         let (mut after, mut all, mut kept) = (After::default(), 0.0, 0.0);
-        for (other, weight) in actions.iter().zip(&self.weights) {
+        for (k, (other, &weight)) in actions.iter().zip(&self.weights).enumerate() {
             if other.candidate == action.candidate {
                 continue;
             }
             all += weight;
-            if let Some(place) = self.place(state, other, action.insertion.position) {
+            if let Some(effort) = self.effort(k, action.insertion.position) {
                 kept += weight;
-                after.dearer += weight * (place.effort - other.insertion.effort);
+                after.dearer += weight * (effort - other.insertion.effort);
                 continue;
             }
             after.lost += weight;
@@ -93,23 +102,34 @@ impl View<'_, '_> {
         after
     }
 
-    /// A place of another action after an insertion at `position`: the cheaper of its old place and the two new
-    /// ones; only where none of them is legal, any.
-    fn place(&self, state: &State<'_>, other: &Action, position: usize) -> Option<Insertion> {
-        let insert = self.episode.definition().insertion();
-        if insert == Insert::Append {
-            return self.tour.insertion(state.instance(), self.tour.len(), other.candidate);
+    /// The effort of another action after an insertion at `position`: at the cheaper of its old place and the two new
+    /// ones; only where none of them is legal, at any.
+    fn effort(&self, index: usize, position: usize) -> Option<f64> {
+        let (instance, other) = (self.episode.state().instance(), &self.episode.actions()[index]);
+        let (tour, candidate) = (&self.tour, other.candidate);
+        if self.episode.definition().insertion() == Insert::Append {
+            return tour.insertion(instance, tour.len(), candidate).map(|place| place.effort);
         }
-        let old = other.insertion.position;
-        let places = [old + usize::from(old > position), position, position + 1];
-        let found = places
-            .iter()
-            .filter_map(|&p| self.tour.insertion(state.instance(), p, other.candidate));
-        let cheapest = found.min_by(|a, b| a.effort.total_cmp(&b.effort));
-        // Where totals decide and the way to its old place is as it was, no other is shorter.
-        if state.instance().untimed && old != position {
-            return cheapest;
+        if !tour.has_room(instance, candidate) {
+            return None;
         }
-        cheapest.or_else(|| self.tour.cheapest(state.instance(), other.candidate))
+        let (old, new) = (other.insertion.position, [position, position + 1]);
+        let anywhere = || tour.cheapest(instance, candidate).map(|place| place.effort);
+        if instance.untimed {
+            let detours_m = new.map(|p| tour.detour_m(instance, p, candidate));
+            let metres = detours_m.into_iter().fold(f64::INFINITY, f64::min);
+            if old == position {
+                return tour.effort_of_detour(instance, candidate, metres).or_else(anywhere);
+            }
+            // The way to its old place is as it was, and no other but the new ones is shorter.
+            let metres = metres.min(self.detours_m[index]);
+            return tour.effort_of_detour(instance, candidate, metres);
+        }
+        let mut cheapest: Option<Insertion> = None;
+        for place in [old + usize::from(old > position)].into_iter().chain(new) {
+            let most = cheapest.map_or(f64::INFINITY, |cheapest| cheapest.effort);
+            cheapest = tour.insertion_below(instance, place, candidate, most).or(cheapest);
+        }
+        cheapest.map(|place| place.effort).or_else(anywhere)
     }
 }

@@ -158,13 +158,14 @@ impl<'a, 'b> Scene<'a, 'b> {
     }
 
     fn nearest_actions(&self) -> Vec<f64> {
-        let rows = self.candidates.len();
-        let open = |row: &usize| !self.state.tour().serves(self.candidates[*row]);
+        let rows = 0..self.candidates.len();
+        let open = |&row: &usize| !self.state.tour().serves(self.candidates[row]);
+        let open: Vec<usize> = rows.clone().filter(open).collect();
         let nearest = |row: usize| {
-            let others = (0..rows).filter(open).filter(|&other| other != row);
-            others.map(|other| self.between(row, other)).fold(f64::INFINITY, f64::min)
+            let others = open.iter().filter(|&&other| other != row);
+            others.map(|&other| self.between(row, other)).fold(f64::INFINITY, f64::min)
         };
-        (0..rows).map(nearest).collect()
+        rows.map(nearest).collect()
     }
 
     fn share(&mut self) {

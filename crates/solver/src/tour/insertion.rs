@@ -71,9 +71,12 @@ impl Tour {
         position: usize,
         candidate: u32,
     ) -> Option<Insertion> {
-        let (metres, seconds, joules) = if instance.untimed {
-            self.longer(instance, position, candidate)?
-        } else if instance.moving {
+        if instance.untimed {
+            let metres = self.detour_m(instance, position, candidate);
+            let effort = self.effort_of_detour(instance, candidate, metres)?;
+            return Some(Insertion { position, effort });
+        }
+        let (metres, seconds, joules) = if instance.moving {
             let run = instance.step(self.before(position), candidate);
             if !instance.in_time(&run) {
                 return None;
@@ -84,11 +87,7 @@ impl Tour {
         } else {
             self.delayed(instance, position, candidate)?
         };
-        let per = &instance.effort;
-        // Being early where one waits anyway gains nothing.
-        let seconds = if instance.waits { seconds.max(0.0) } else { seconds };
-        let effort = per.per_m * metres + per.per_s * seconds + per.per_j * joules;
-        Some(Insertion { position, effort })
+        Some(Insertion { position, effort: effort(instance, metres, seconds, joules) })
     }
 
     /// [`Tour::insertion`], if it takes less than `most`. Where metres alone count, times are looked at only
@@ -121,25 +120,26 @@ impl Tour {
             - instance.distance_m(from, to)
     }
 
-    /// Metres, seconds and joules more, where totals decide.
-    fn longer(
+    /// What it takes to charge a candidate on a way that is so many metres longer; `None` if that breaks a limit. Only
+    /// where totals decide.
+    #[inline]
+    pub(crate) fn effort_of_detour(
         &self,
         instance: &Instance<'_>,
-        position: usize,
         candidate: u32,
-    ) -> Option<(f64, f64, f64)> {
+        metres: f64,
+    ) -> Option<f64> {
         let charger = &instance.scenario.charger;
-        let metres = self.detour_m(instance, position, candidate);
         let joules = instance.candidates[candidate as usize].charge_j(0.0);
         let seconds = metres * instance.travel_spm + joules * instance.transfer_spj;
         let now = self.finished();
         let energy_j = instance.energy_j(now) + charger.travel_jpm * metres + joules;
         let legal =
             now.arrive_s + seconds <= instance.timespan_s && energy_j <= instance.capacity_j;
-        legal.then_some((metres, seconds, joules))
+        legal.then(|| effort(instance, metres, seconds, joules))
     }
 
-    /// The same where nothing moves: the seconds by which the next stop is delayed.
+    /// Metres, seconds and joules more where nothing moves: the seconds by which the next stop is delayed.
     fn delayed(
         &self,
         instance: &Instance<'_>,
@@ -194,10 +194,12 @@ impl Tour {
         self.insertion(instance, position?, candidate)
     }
 
-    /// Whether a candidate could be charged if the way to it took nothing. Only where totals decide.
-    fn has_room(&self, instance: &Instance<'_>, candidate: u32) -> bool {
+    /// Whether a candidate could be charged if the way to it took nothing; only known where totals decide, else taken
+    /// to be so.
+    #[inline]
+    pub(crate) fn has_room(&self, instance: &Instance<'_>, candidate: u32) -> bool {
         // Over it the way may be shorter where distances break the triangle inequality.
-        if !instance.metric {
+        if !instance.untimed || !instance.metric {
             return true;
         }
         let joules = instance.candidates[candidate as usize].charge_j(0.0);
@@ -240,4 +242,13 @@ impl Tour {
         }
         best
     }
+}
+
+/// What an insertion takes of the scarce resource.
+#[inline]
+fn effort(instance: &Instance<'_>, metres: f64, seconds: f64, joules: f64) -> f64 {
+    let per = &instance.effort;
+    // Being early where one waits anyway gains nothing.
+    let seconds = if instance.waits { seconds.max(0.0) } else { seconds };
+    per.per_m * metres + per.per_s * seconds + per.per_j * joules
 }
