@@ -102,7 +102,7 @@ impl FromStr for Method {
         };
         let digits = what.trim_start_matches(|c: char| !c.is_ascii_digit());
         let number = || digits.parse::<usize>().map_err(|_| UnknownMethod(text.to_owned()));
-        let none = Effort { greedy: false, ..Effort::GREEDY };
+        let none = Effort { greedy: 0, ..Effort::GREEDY };
         let effort = match what.trim_end_matches(|c: char| c.is_ascii_digit()) {
             "greedy" => Some(Effort::GREEDY),
             "sample" => {

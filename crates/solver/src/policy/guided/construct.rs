@@ -10,8 +10,8 @@ use crate::solvers::Budget;
 /// How much is built.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Effort {
-    /// Whether there is a greedy roll-out, the first.
-    pub greedy: bool,
+    /// Actions that the greedy roll-out, the first, takes in each state that it values; 0 for none.
+    pub greedy: usize,
     /// Width of the beam; 0 for none.
     pub beam: usize,
     /// Sampled roll-outs.
@@ -29,7 +29,7 @@ pub struct Effort {
 impl Effort {
     /// Nothing but one greedy roll-out.
     pub const GREEDY: Self = Self {
-        greedy: true,
+        greedy: 1,
         beam: 0,
         samples: 0,
         temperature: 0.0,
@@ -38,8 +38,9 @@ impl Effort {
         orders_grow: false,
     };
 
-    /// What `auto` begins with: one roll-out, for the search that follows makes more of the time than others would.
-    pub const SHARE: Self = Self { temperature: 0.1, orders: 16, ..Self::GREEDY };
+    /// What `auto` begins with: one roll-out, two actions at a time, for the search that follows makes more of the
+    /// time than others would.
+    pub const SHARE: Self = Self { greedy: 2, orders: 16, ..Self::GREEDY };
 
     /// What the solver `dqn` does: at most 32 complete roll-outs. Where demands have to be met by their
     /// deadlines, the order is most of what is left to win, and another one costs little.
@@ -48,7 +49,7 @@ impl Effort {
             Problem::KCoverage => (96, true),
             Problem::Reward | Problem::Mobile => (16, false),
         };
-        Self { beam: 15, samples: 16, orders, orders_grow, ..Self::SHARE }
+        Self { beam: 15, samples: 16, temperature: 0.1, orders, orders_grow, ..Self::GREEDY }
     }
 }
 
@@ -72,9 +73,9 @@ impl<'a> Guide<'a> {
         budget: &mut Budget<'_>,
         kept: &mut Kept,
     ) -> Result<(), QError> {
-        if effort.greedy {
+        if effort.greedy > 0 {
             let mut ends = vec![self.begin()];
-            self.greedy(&mut ends)?;
+            self.greedy(&mut ends, effort.greedy)?;
             self.complete(&ends, effort, rng, budget, kept);
         }
         if effort.beam > 0 && !budget.is_spent() {

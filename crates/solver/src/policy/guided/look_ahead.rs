@@ -23,7 +23,7 @@ impl<'a> Guide<'a> {
                 end.act(action);
                 ends.push(end);
             }
-            self.greedy(&mut ends)?;
+            self.greedy(&mut ends, 1)?;
             let earned: Vec<f32> = ends.iter().map(|end| end.earned() as f32).collect();
             all.append(&mut ends);
             let Some(winner) = best(&earned) else { break };

@@ -9,12 +9,13 @@ use crate::framework::Episode;
 use crate::policy::QError;
 
 impl<'a> Guide<'a> {
-    /// Takes the best action in each state that leaves no demand impossible, until all episodes are over.
+    /// Takes the best action in each state that leaves no demand impossible, until all episodes are over; and, before
+    /// it values the next state, as many of the next best as make `at_once`, as far as they are actions still.
     ///
     /// # Errors
     /// The Q-function cannot answer.
-    pub fn greedy(&self, episodes: &mut [Episode<'a>]) -> Result<(), QError> {
-        self.roll_out(episodes, |_| 0.0)
+    pub fn greedy(&self, episodes: &mut [Episode<'a>], at_once: usize) -> Result<(), QError> {
+        self.roll_out(episodes, at_once, |_| 0.0)
     }
 
     /// The same with Gumbel noise on each value, so that actions are drawn with probability
@@ -28,7 +29,7 @@ impl<'a> Guide<'a> {
         temperature: f64,
         rng: &mut Pcg64Mcg,
     ) -> Result<(), QError> {
-        self.roll_out(episodes, |_| {
+        self.roll_out(episodes, 1, |_| {
             let uniform = rng.random_range(1e-12..1.0_f64);
             (-temperature * (-uniform.ln()).ln()) as f32
         })
@@ -37,6 +38,7 @@ impl<'a> Guide<'a> {
     fn roll_out(
         &self,
         episodes: &mut [Episode<'a>],
+        at_once: usize,
         mut noise: impl FnMut(f32) -> f32,
     ) -> Result<(), QError> {
         loop {
@@ -49,7 +51,9 @@ impl<'a> Guide<'a> {
             let values = self.values(&shared)?;
             for (episode, mut values) in live.iter_mut().zip(values) {
                 values.iter_mut().for_each(|value| *value += noise(*value));
+                let next_best = next_best(episode, &values, at_once);
                 step_safely(episode, values);
+                step_on(episode, &next_best);
             }
         }
     }
@@ -70,4 +74,28 @@ fn step_safely(episode: &mut Episode<'_>, mut values: Vec<f32>) {
         action = best(&values);
     }
     episode.act(first);
+}
+
+/// The candidates of the best actions but the first, `at_once` with it.
+fn next_best(episode: &Episode<'_>, values: &[f32], at_once: usize) -> Vec<u32> {
+    if at_once < 2 {
+        return Vec::new();
+    }
+    let mut actions: Vec<usize> = (0..values.len()).collect();
+    actions.sort_by(|&a, &b| values[b].total_cmp(&values[a]));
+    let next = actions.into_iter().take(at_once).skip(1);
+    next.map(|index| episode.actions()[index].candidate).collect()
+}
+
+/// Takes the actions of these candidates that leave no demand impossible.
+fn step_on(episode: &mut Episode<'_>, candidates: &[u32]) {
+    for &candidate in candidates {
+        let index = episode.actions().iter().position(|action| action.candidate == candidate);
+        let Some(index) = index else { continue };
+        let mut next = episode.clone();
+        next.act(index);
+        if !next.is_over() || next.succeeded() {
+            *episode = next;
+        }
+    }
 }

@@ -44,7 +44,7 @@ fn a_beam_of_one_is_the_greedy_roll_out() {
         for document in drawn(seed) {
             guided(&document, |guide| {
                 let mut greedy = [guide.begin()];
-                guide.greedy(&mut greedy).unwrap();
+                guide.greedy(&mut greedy, 1).unwrap();
                 let beam = guide.beam(1).unwrap();
                 assert_eq!(beam.len(), 1);
                 assert_eq!(beam[0].order(), greedy[0].order());
@@ -54,11 +54,28 @@ fn a_beam_of_one_is_the_greedy_roll_out() {
 }
 
 #[test]
+fn several_actions_at_once_value_fewer_states() {
+    for document in drawn(4) {
+        guided(&document, |guide| {
+            let [alone, pairs] = [1, 2].map(|at_once| {
+                let mut ends = [guide.begin()];
+                let before = guide.valued();
+                guide.greedy(&mut ends, at_once).unwrap();
+                assert!(ends[0].is_over());
+                (guide.valued() - before, ends[0].order().len() as u64)
+            });
+            assert_eq!(alone.0, alone.1, "one state each");
+            assert!(pairs.0 < pairs.1 && 2 * pairs.0 >= pairs.1, "{pairs:?}");
+        });
+    }
+}
+
+#[test]
 fn cold_samples_are_greedy_and_hot_ones_differ() {
     let [document, ..] = drawn(2);
     guided(&document, |guide| {
         let mut greedy = [guide.begin()];
-        guide.greedy(&mut greedy).unwrap();
+        guide.greedy(&mut greedy, 1).unwrap();
         let mut rng = Pcg64Mcg::seed_from_u64(5);
         let mut cold = vec![guide.begin(); 4];
         guide.sample(&mut cold, 0.0, &mut rng).unwrap();

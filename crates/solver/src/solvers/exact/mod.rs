@@ -31,6 +31,7 @@ mod prices;
 mod pricing;
 mod prove;
 mod prover;
+mod queue;
 mod quick;
 #[cfg(test)]
 mod quick_tests;

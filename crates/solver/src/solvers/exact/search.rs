@@ -4,11 +4,12 @@
 //! follow it no worse. Labels whose bound does not beat the incumbent are dropped, so that an empty queue
 //! proves the incumbent.
 
-use std::collections::{BinaryHeap, HashMap};
+use std::collections::HashMap;
 
 use super::bits::Bits;
 use super::label::{Entry, Label, NONE, dominates, is_interchangeable, key};
 use super::multipliers::Multipliers;
+use super::queue::Queue;
 use super::relaxation::{Relaxation, Resource};
 use super::timetable::Timetable;
 use super::{Incumbent, Model};
@@ -37,7 +38,7 @@ pub struct Search<'s, 'a, const W: usize> {
     all: Bits<W>,
     members: Vec<Bits<W>>,
     labels: Vec<Label<W>>,
-    heap: BinaryHeap<Entry>,
+    queue: Queue,
     /// By key, the last label made under it.
     heads: HashMap<u64, u32, rustc_hash::FxBuildHasher>,
     incumbent: &'s mut Incumbent,
@@ -51,7 +52,7 @@ pub struct Search<'s, 'a, const W: usize> {
 impl<'s, 'a, const W: usize> Search<'s, 'a, W> {
     /// Memory that a label takes, with its places in the queue and under its key.
     pub const LABEL_BYTES: usize =
-        size_of::<Label<W>>() + size_of::<Entry>() + 2 * size_of::<(u64, u32)>();
+        size_of::<Label<W>>() + 2 * size_of::<Entry>() + 2 * size_of::<(u64, u32)>();
 
     pub fn new(
         model: &'s Model<'a>,
@@ -67,7 +68,7 @@ impl<'s, 'a, const W: usize> Search<'s, 'a, W> {
             all: Bits::of(0..model.len() as u32),
             members,
             labels: Vec::new(),
-            heap: BinaryHeap::new(),
+            queue: Queue::new(multipliers.bound, incumbent.cutoff()),
             heads: HashMap::default(),
             incumbent,
             ahead: Vec::new(),
@@ -83,19 +84,20 @@ impl<'s, 'a, const W: usize> Search<'s, 'a, W> {
         let mut limit = most.min(labels);
         let bound = self.multipliers.bound;
         self.begin();
-        while let Some(entry) = self.heap.pop() {
+        while let Some(entry) = self.queue.pop() {
             if entry.bound >= self.incumbent.cutoff() {
-                break;
+                continue;
             }
             if self.labels.len() >= limit {
-                let come = (entry.bound - bound) / (self.incumbent.cutoff() - bound);
+                let least = entry.bound.min(self.queue.bound());
+                let come = (least - bound) / (self.incumbent.cutoff() - bound);
                 if limit == more || come < PROMISING {
-                    return End::Open(entry.bound);
+                    return End::Open(least);
                 }
                 limit = more;
             }
             if !budget.spend() {
-                return End::Open(entry.bound);
+                return End::Open(entry.bound.min(self.queue.bound()));
             }
             if !self.labels[entry.label as usize].dominated {
                 self.expand(entry);
@@ -124,17 +126,19 @@ impl<'s, 'a, const W: usize> Search<'s, 'a, W> {
         };
         self.labels.push(root);
         self.complete(0);
-        self.heap.push(Entry { bound: self.multipliers.bound, stops: 0, label: 0 });
+        self.queue.push(Entry { bound: self.multipliers.bound, stops: 0, label: 0 });
     }
 
     /// Looks for a better tour and proves nothing: of the partial tours with as many stops, the `width` best are
     /// followed.
     pub fn dive(&mut self, width: usize, budget: &mut Budget<'_>) {
         self.begin();
-        while !self.heap.is_empty() && !self.incumbent.suffices() && budget.spend() {
-            let level: Vec<Entry> = std::iter::from_fn(|| self.heap.pop()).take(width).collect();
-            self.heap.clear();
-            for entry in level {
+        loop {
+            let level = self.queue.drain();
+            if level.is_empty() || self.incumbent.suffices() || !budget.spend() {
+                return;
+            }
+            for entry in level.into_iter().take(width) {
                 if entry.bound < self.incumbent.cutoff()
                     && !self.labels[entry.label as usize].dominated
                 {
@@ -265,7 +269,7 @@ impl<'s, 'a, const W: usize> Search<'s, 'a, W> {
             dominated: false,
         };
         if let Some(new) = self.insert(new) {
-            self.heap.push(Entry { bound, stops: label.stops + 1, label: new });
+            self.queue.push(Entry { bound, stops: label.stops + 1, label: new });
             self.complete(new);
         }
     }
