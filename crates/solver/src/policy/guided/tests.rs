@@ -55,19 +55,21 @@ fn a_beam_of_one_is_the_greedy_roll_out() {
 
 #[test]
 fn several_actions_at_once_value_fewer_states() {
+    let (mut alone, mut pairs) = ((0, 0), (0, 0));
     for document in drawn(4) {
         guided(&document, |guide| {
-            let [alone, pairs] = [1, 2].map(|at_once| {
+            for (at_once, sum) in [(1, &mut alone), (2, &mut pairs)] {
                 let mut ends = [guide.begin()];
                 let before = guide.valued();
                 guide.greedy(&mut ends, at_once).unwrap();
                 assert!(ends[0].is_over());
-                (guide.valued() - before, ends[0].order().len() as u64)
-            });
-            assert_eq!(alone.0, alone.1, "one state each");
-            assert!(pairs.0 < pairs.1 && 2 * pairs.0 >= pairs.1, "{pairs:?}");
+                sum.0 += guide.valued() - before;
+                sum.1 += ends[0].order().len() as u64;
+            }
         });
     }
+    assert_eq!(alone.0, alone.1, "one state for each stop");
+    assert!(4 * pairs.0 < 3 * pairs.1, "{pairs:?}");
 }
 
 #[test]

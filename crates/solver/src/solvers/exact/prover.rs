@@ -54,7 +54,7 @@ const DIVE: usize = 30;
 const FIRST_DIVE_OF_ENERGY: usize = 10;
 /// Where energy layers the paths, what narrowing leaves open tells how long the proof may take: with so many ways, a
 /// share looks for a better tour first.
-const WAYS_OF_LONG_PROOF: usize = 36_000;
+const WAYS_OF_LONG_PROOF: usize = 42_000;
 const ITERATIONS_OF_MANY_WAYS: u64 = 7_000;
 /// Beyond this many candidates a bound without paths is taken first.
 const SMALL: usize = 128;
