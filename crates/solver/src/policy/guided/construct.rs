@@ -38,9 +38,9 @@ impl Effort {
         orders_grow: false,
     };
 
-    /// What `auto` begins with: one roll-out, two actions at a time, for the search that follows makes more of the
+    /// What `auto` begins with: one roll-out, three actions at a time, for the search that follows makes more of the
     /// time than others would.
-    pub const SHARE: Self = Self { greedy: 2, orders: 16, ..Self::GREEDY };
+    pub const SHARE: Self = Self { greedy: 3, orders: 16, ..Self::GREEDY };
 
     /// What the solver `dqn` does: at most 32 complete roll-outs. Where demands have to be met by their
     /// deadlines, the order is most of what is left to win, and another one costs little.

@@ -47,7 +47,7 @@ const FIRST_MEMORY_OF_SHORT: usize = 4;
 const NARROWING_MEMORY: usize = 1;
 const NARROWING_STEPS: u32 = 3;
 /// Steps of a round after which arcs are closed.
-const EARLY: u32 = 2;
+const EARLY: u32 = 3;
 /// Partial tours of each length that are followed, before a search, to find a better tour soon; and already then where
 /// energy is scarce: there bounds point to good tours early.
 const DIVE: usize = 30;
