@@ -24,7 +24,7 @@ const FIRST_OF_COUNT: u64 = 5;
 /// Iterations of the baseline for a tour that breaks as little as can be.
 const BEST_EFFORT: u64 = 2_000;
 /// Iterations of the baseline that make a proven tour shorter, or earlier, without changing its objective.
-const POLISH: u64 = 200;
+const POLISH: u64 = 100;
 /// The same where sensors move and an iteration takes long.
 const MOVING_POLISH: u64 = 20;
 
