@@ -25,7 +25,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 fn models(folder: &Path) -> Result<String, Box<dyn Error>> {
     let mut files = Vec::new();
     for entry in fs::read_dir(folder)? {
-        let path = fs::canonicalize(entry?.path())?;
+        let path = entry?.path();
         if path.extension().is_some_and(|extension| extension == "onnx") {
             files.push(path);
         }
@@ -35,8 +35,12 @@ fn models(folder: &Path) -> Result<String, Box<dyn Error>> {
     code.push_str("const MODELS: &[(&str, &[u8])] = &[\n");
     for file in files {
         let name = file.file_name().and_then(|name| name.to_str()).ok_or("a model's name")?;
-        let path = file.to_str().ok_or("a model's path")?;
-        writeln!(code, "    ({name:?}, include_bytes!({path:?})),")?;
+        // Not the whole path, so that a build that was moved with its sources still finds them.
+        let path = format!("/{}", file.to_str().ok_or("a model's path")?);
+        writeln!(
+            code,
+            "    ({name:?}, include_bytes!(concat!(env!(\"CARGO_MANIFEST_DIR\"), {path:?}))),"
+        )?;
     }
     code.push_str("];\n");
     Ok(code)

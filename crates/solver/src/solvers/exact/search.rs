@@ -1,4 +1,4 @@
-//! Best-first search over partial tours, with dominance, under completion bounds.
+//! Search, nearly best first, over partial tours, with dominance, under completion bounds.
 //!
 //! A label is a partial tour. One dominates another at the same stop where whatever follows the other can
 //! follow it no worse. Labels whose bound does not beat the incumbent are dropped, so that an empty queue
