@@ -32,6 +32,8 @@ mod pricing;
 mod prove;
 mod prover;
 mod queue;
+#[cfg(test)]
+mod queue_tests;
 mod quick;
 #[cfg(test)]
 mod quick_tests;
