@@ -38,7 +38,7 @@ impl Ahead {
             tour.detour_m(state.instance(), place, action.candidate)
         };
         let untimed = state.instance().untimed;
-        let detours_m = actions.iter().filter(|_| untimed).map(detour_m).collect();
+        let detours_m = if untimed { actions.iter().map(detour_m).collect() } else { Vec::new() };
         let tour = state.tour().clone();
         let mut view = View { episode, weights, detours_m, tour, lost: Vec::new() };
         Self { after: (0..actions.len()).map(|index| view.after(index)).collect() }

@@ -199,13 +199,8 @@ impl Tour {
     #[inline]
     pub(crate) fn has_room(&self, instance: &Instance<'_>, candidate: u32) -> bool {
         // Over it the way may be shorter where distances break the triangle inequality.
-        if !instance.untimed || !instance.metric {
-            return true;
-        }
-        let joules = instance.candidates[candidate as usize].charge_j(0.0);
-        let now = self.finished();
-        now.arrive_s + joules * instance.transfer_spj <= instance.timespan_s
-            && instance.energy_j(now) + joules <= instance.capacity_j
+        let known = instance.untimed && instance.metric;
+        !known || self.effort_of_detour(instance, candidate, 0.0).is_some()
     }
 
     #[inline]

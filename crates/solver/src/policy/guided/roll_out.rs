@@ -64,10 +64,7 @@ fn step_safely(episode: &mut Episode<'_>, mut values: Vec<f32>) {
     let Some(first) = best(&values) else { return };
     let mut action = Some(first);
     while let Some(index) = action.filter(|&index| values[index] > f32::NEG_INFINITY) {
-        let mut next = episode.clone();
-        next.act(index);
-        if !next.is_over() || next.succeeded() {
-            *episode = next;
+        if act_safely(episode, index) {
             return;
         }
         values[index] = f32::NEG_INFINITY;
@@ -81,21 +78,33 @@ fn next_best(episode: &Episode<'_>, values: &[f32], at_once: usize) -> Vec<u32> 
     if at_once < 2 {
         return Vec::new();
     }
-    let mut actions: Vec<usize> = (0..values.len()).collect();
-    actions.sort_by(|&a, &b| values[b].total_cmp(&values[a]));
-    let next = actions.into_iter().take(at_once).skip(1);
-    next.map(|index| episode.actions()[index].candidate).collect()
+    let mut left = values.to_vec();
+    let mut ranked = Vec::new();
+    for _ in 0..at_once.min(left.len()) {
+        let Some(index) = best(&left) else { break };
+        left[index] = f32::NEG_INFINITY;
+        ranked.push(episode.actions()[index].candidate);
+    }
+    ranked.into_iter().skip(1).collect()
 }
 
 /// Takes the actions of these candidates that leave no demand impossible.
 fn step_on(episode: &mut Episode<'_>, candidates: &[u32]) {
     for &candidate in candidates {
         let index = episode.actions().iter().position(|action| action.candidate == candidate);
-        let Some(index) = index else { continue };
-        let mut next = episode.clone();
-        next.act(index);
-        if !next.is_over() || next.succeeded() {
-            *episode = next;
+        if let Some(index) = index {
+            act_safely(episode, index);
         }
     }
+}
+
+/// Takes an action unless it leaves a demand impossible; whether it did.
+fn act_safely(episode: &mut Episode<'_>, index: usize) -> bool {
+    let mut next = episode.clone();
+    next.act(index);
+    let safe = !next.is_over() || next.succeeded();
+    if safe {
+        *episode = next;
+    }
+    safe
 }

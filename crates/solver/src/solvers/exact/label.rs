@@ -29,26 +29,19 @@ pub struct Label<const W: usize> {
     pub dominated: bool,
 }
 
-/// The best label is the one with the least bound, the longest among equals.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// A label that waits, and the bound under which it does.
+#[derive(Clone, Copy, Debug)]
 pub struct Entry {
     pub bound: f64,
     pub stops: u32,
     pub label: u32,
 }
 
-impl Eq for Entry {}
-
-impl Ord for Entry {
-    fn cmp(&self, other: &Self) -> Ordering {
-        let bound = other.bound.total_cmp(&self.bound);
-        bound.then(self.stops.cmp(&other.stops)).then(other.label.cmp(&self.label))
-    }
-}
-
-impl PartialOrd for Entry {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
+impl Entry {
+    /// Puts the least bound first, the longest among equals.
+    pub fn compare(&self, other: &Self) -> Ordering {
+        let bound = self.bound.total_cmp(&other.bound);
+        bound.then(other.stops.cmp(&self.stops)).then(self.label.cmp(&other.label))
     }
 }
 

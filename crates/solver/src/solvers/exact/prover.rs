@@ -145,8 +145,7 @@ impl<'p> Prover<'p, '_, '_> {
             return End::Open(bound);
         }
         self.paths.close_to_paths();
-        let layered_by_energy = self.paths.resource() == Resource::Energy;
-        let is_long = layered_by_energy && self.paths.ways() > WAYS_OF_LONG_PROOF;
+        let is_long = self.is_layered_by_energy() && self.paths.ways() > WAYS_OF_LONG_PROOF;
         if is_long && self.effort == Effort::Share {
             self.improve(ITERATIONS_OF_MANY_WAYS);
             if self.incumbent.suffices() {
@@ -161,7 +160,11 @@ impl<'p> Prover<'p, '_, '_> {
 
     /// Whether one round may be the proof: candidates are few, or energy has its price.
     fn is_short(&self) -> bool {
-        few(self.model) || self.paths.resource() == Resource::Energy
+        few(self.model) || self.is_layered_by_energy()
+    }
+
+    fn is_layered_by_energy(&self) -> bool {
+        self.paths.resource() == Resource::Energy
     }
 
     /// Neighbours that each candidate remembers in the first round.
@@ -197,9 +200,7 @@ impl<'p> Prover<'p, '_, '_> {
                 if !self.fix(&ascent.best) {
                     break;
                 }
-                if self.paths.resource() == Resource::Energy
-                    && self.dive::<W>(ascent, FIRST_DIVE_OF_ENERGY)
-                {
+                if self.is_layered_by_energy() && self.dive::<W>(ascent, FIRST_DIVE_OF_ENERGY) {
                     return End::Closed;
                 }
             }
@@ -259,8 +260,7 @@ impl<'p> Prover<'p, '_, '_> {
 
     fn begin(&self) -> Ascent {
         let model = self.model;
-        let layered_by_energy = self.paths.resource() == Resource::Energy;
-        let mut ascent = Ascent::new(model, layered_by_energy);
+        let mut ascent = Ascent::new(model, self.is_layered_by_energy());
         if let Some(order) =
             self.incumbent.order.as_ref().filter(|_| model.length_counts && !model.wide.moving)
         {

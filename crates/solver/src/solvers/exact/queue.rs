@@ -59,7 +59,7 @@ impl Queue {
     /// Takes all, the best first.
     pub fn drain(&mut self) -> Vec<Entry> {
         let mut all: Vec<Entry> = self.waiting.iter_mut().flat_map(|w| w.drain(..)).collect();
-        all.sort_unstable_by(|a, b| b.cmp(a));
+        all.sort_unstable_by(Entry::compare);
         self.first = STEPS;
         all
     }

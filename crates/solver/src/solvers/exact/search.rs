@@ -35,7 +35,9 @@ pub struct Search<'s, 'a, const W: usize> {
     model: &'s Model<'a>,
     paths: &'s Relaxation<'s>,
     multipliers: &'s Multipliers,
+    /// All candidates.
     all: Bits<W>,
+    /// By demand.
     members: Vec<Bits<W>>,
     labels: Vec<Label<W>>,
     queue: Queue,
@@ -150,12 +152,7 @@ impl<'s, 'a, const W: usize> Search<'s, 'a, W> {
 
     fn expand(&mut self, entry: Entry) {
         let label = self.labels[entry.label as usize].clone();
-        let mut pool = self.all;
-        if self.model.useful_only {
-            let asked = label.open.iter().map(|d| &self.members[d as usize]);
-            pool = asked.fold(Bits::EMPTY, |pool, members| pool.union(members));
-        }
-        pool = pool.minus(&label.served);
+        let pool = self.useful(&label).minus(&label.served);
         // No better tour takes a way that is closed; whom it leads to may be reached over others.
         let mut heads = pool;
         if label.stops > 0 {
@@ -331,7 +328,8 @@ impl<'s, 'a, const W: usize> Search<'s, 'a, W> {
         Some(index)
     }
 
-    /// Of whom it matters whether a label served them: where only open demands do, their members.
+    /// Who is worth a stop after a label, and of whom it matters whether it served them: where only open demands count,
+    /// their members.
     fn useful(&self, label: &Label<W>) -> Bits<W> {
         if !self.model.useful_only {
             return self.all;
