@@ -15,6 +15,7 @@ mod clusters;
 mod counting;
 mod fixing;
 mod incumbent;
+mod knapsack;
 mod label;
 mod layers;
 mod layout;

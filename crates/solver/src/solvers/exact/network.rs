@@ -71,6 +71,22 @@ impl Network {
         self.first[place]..self.first[place + 1]
     }
 
+    /// Keeps of the arcs those for which this holds of the place they leave and the arc.
+    pub fn retain(&mut self, keep: impl Fn(usize, &Arc) -> bool) {
+        let first = std::mem::replace(&mut self.first, vec![0]);
+        let mut kept = 0;
+        for (from, arcs) in first.windows(2).enumerate() {
+            for a in arcs[0]..arcs[1] {
+                if keep(from, &self.arcs[a]) {
+                    self.arcs[kept] = self.arcs[a];
+                    kept += 1;
+                }
+            }
+            self.first.push(kept);
+        }
+        self.arcs.truncate(kept);
+    }
+
     /// Time from the beginning of one charge to the next, at least, in seconds.
     pub fn least_step(&self, model: &Model<'_>) -> f64 {
         let arcs = (0..model.len()).flat_map(|from| self.leaving(from).map(move |a| (from, a)));
@@ -171,8 +187,8 @@ fn tail_energy(model: &Model<'_>, charge_j: &[f64]) -> Vec<f64> {
     settle(last, |later, earlier| per_m * leg_m(instance, earlier, later) + charge_j[later])
 }
 
-/// Shortest distances of all from a source, of which `values` are the direct ones.
-fn settle(mut values: Vec<f64>, step: impl Fn(usize, usize) -> f64) -> Vec<f64> {
+/// Shortest distances of all from a source, of which `values` are the direct ones; no step is less than zero.
+pub fn settle(mut values: Vec<f64>, step: impl Fn(usize, usize) -> f64) -> Vec<f64> {
     let mut settled = vec![false; values.len()];
     for _ in 0..values.len() {
         let open = (0..values.len()).filter(|&i| !settled[i]);

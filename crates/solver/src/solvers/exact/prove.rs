@@ -4,11 +4,13 @@ use rand_pcg::Pcg64Mcg;
 
 use super::counting;
 use super::incumbent::Incumbent;
-use super::layers::{INTERVALS, MOST_ARRIVALS};
+use super::knapsack;
+use super::layers::{INTERVALS, MOST_ARRIVALS, resource};
 use super::model::{Aim, Model};
 use super::network::Network;
 use super::prover::Prover;
 use super::quick::{Care, quick};
+use super::relaxation::Resource;
 use crate::scenario::Objective;
 use crate::solvers::{Budget, baseline};
 
@@ -62,7 +64,7 @@ pub fn prove(
         let care = if budget.is_spent() { Care::Little } else { Care::Whole };
         return quickly(model, incumbent, known, care);
     }
-    let network = Network::new(model);
+    let mut network = Network::new(model);
     let arrivals = network.arcs.len() * INTERVALS;
     let most = if model.wide.moving { MOST_MOVING_ARCS_OF_SHARE } else { usize::MAX };
     let share =
@@ -77,6 +79,9 @@ pub fn prove(
         if budget.is_spent() {
             return quickly(model, incumbent, known, Care::Little);
         }
+    }
+    if resource(model) == Resource::Energy && !model.wide.moving {
+        knapsack::thin(&mut network, model, incumbent.cutoff());
     }
     let Some(paths) = Prover::paths(model, &network, incumbent, budget) else {
         return quickly(model, incumbent, known, Care::Little);

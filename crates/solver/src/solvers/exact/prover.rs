@@ -3,6 +3,7 @@
 use rand_pcg::Pcg64Mcg;
 
 use super::incumbent::Incumbent;
+use super::knapsack::{self, apart_m};
 use super::layers::{few, layers, resource};
 use super::memory::Memory;
 use super::model::{Aim, Model};
@@ -267,36 +268,12 @@ impl<'p> Prover<'p, '_, '_> {
             ascent.begin(model, order);
         }
         if !model.length_counts {
-            let (takes, limit) = self.takes();
+            let (takes, limit) = knapsack::takes(model, self.paths.resource());
             if limit.is_finite() {
                 ascent.begin_knapsack(model, &takes, limit);
             }
         }
         ascent
-    }
-
-    /// What each candidate takes of the resource, with a typical way to it; and how much there is.
-    fn takes(&self) -> (Vec<f64>, f64) {
-        let (model, instance) = (self.model, &self.model.wide);
-        let charger = &instance.scenario.charger;
-        let near_m = |i: usize| {
-            let others = (0..model.len()).filter(|&other| other != i);
-            others.map(|other| apart_m(model, other, i)).fold(f64::INFINITY, f64::min)
-        };
-        let takes = |i: usize| {
-            let charge_j = instance.candidates[i].charge_j(0.0);
-            match self.paths.resource() {
-                Resource::Time => charge_j / charger.transfer_w + near_m(i) / charger.speed_mps,
-                Resource::Energy => charge_j + charger.travel_jpm * near_m(i),
-                Resource::Stops => f64::INFINITY,
-            }
-        };
-        let limit = match self.paths.resource() {
-            Resource::Time => instance.timespan_s,
-            Resource::Energy => instance.capacity_j,
-            Resource::Stops => f64::INFINITY,
-        };
-        ((0..model.len()).map(takes).collect(), limit)
     }
 
     /// Whether a bound leaves more than this share of the incumbent open.
@@ -359,13 +336,4 @@ fn target(model: &Model<'_>, incumbent: &Incumbent, ascent: &Ascent) -> f64 {
 /// Each candidate remembers so many of those near it.
 fn nearest(model: &Model<'_>, network: &Network, size: usize) -> Memory {
     Memory::nearest(network, |a, b| apart_m(model, a, b), size)
-}
-
-/// Roughly how far two candidates are apart, in metres.
-fn apart_m(model: &Model<'_>, a: usize, b: usize) -> f64 {
-    if model.wide.moving {
-        (model.wide.candidates[a].point - model.wide.candidates[b].point).norm()
-    } else {
-        model.wide.distance_m(a, b)
-    }
 }
