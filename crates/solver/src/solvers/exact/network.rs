@@ -1,6 +1,9 @@
 //! The arcs that a feasible tour may use, and bounds on the time and energy at which it uses them.
 
 use super::Model;
+use super::knapsack;
+use super::layers::resource;
+use super::relaxation::Resource;
 use crate::instance::Instance;
 use crate::tour::Run;
 
@@ -35,7 +38,9 @@ pub struct Network {
 }
 
 impl Network {
-    pub fn new(model: &Model<'_>) -> Self {
+    /// Those of all arcs that a tour which costs less than `cutoff` may use, as far as can be told before anything is
+    /// laid out.
+    pub fn new(model: &Model<'_>, cutoff: f64) -> Self {
         let instance = &model.wide;
         let n = instance.len();
         let earliest_s = earliest(model);
@@ -57,11 +62,16 @@ impl Network {
                     network.arcs.push(Arc { to: to as u32, cost, leg_s, energy_j });
                 }
             }
-            // Near ones first: their heads remember more of what their tails do.
-            let begin = network.first[from];
-            network.arcs[begin..]
-                .sort_unstable_by(|a, b| a.leg_s.total_cmp(&b.leg_s).then(a.to.cmp(&b.to)));
             network.first.push(network.arcs.len());
+        }
+        if resource(model) == Resource::Energy && !instance.moving {
+            knapsack::thin(&mut network, model, cutoff);
+        }
+        // Near ones first: their heads remember more of what their tails do.
+        for from in 0..=n {
+            let leaving = network.leaving(from);
+            network.arcs[leaving]
+                .sort_unstable_by(|a, b| a.leg_s.total_cmp(&b.leg_s).then(a.to.cmp(&b.to)));
         }
         network
     }

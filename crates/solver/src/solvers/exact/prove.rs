@@ -4,13 +4,11 @@ use rand_pcg::Pcg64Mcg;
 
 use super::counting;
 use super::incumbent::Incumbent;
-use super::knapsack;
-use super::layers::{INTERVALS, MOST_ARRIVALS, resource};
+use super::layers::{INTERVALS, MOST_ARRIVALS};
 use super::model::{Aim, Model};
 use super::network::Network;
 use super::prover::Prover;
 use super::quick::{Care, quick};
-use super::relaxation::Resource;
 use crate::scenario::Objective;
 use crate::solvers::{Budget, baseline};
 
@@ -64,15 +62,6 @@ pub fn prove(
         let care = if budget.is_spent() { Care::Little } else { Care::Whole };
         return quickly(model, incumbent, known, care);
     }
-    let mut network = Network::new(model);
-    let arrivals = network.arcs.len() * INTERVALS;
-    let most = if model.wide.moving { MOST_MOVING_ARCS_OF_SHARE } else { usize::MAX };
-    let share =
-        SHARES.iter().find(|share| arrivals <= share.1.min(most)).map_or(0, |share| share.0);
-    let rounds = if effort == Effort::Whole { ROUNDS } else { share };
-    if rounds == 0 {
-        return quickly(model, incumbent, known, Care::Whole);
-    }
     let rewards = model.wide.scenario.objective == Objective::MaxReward && !model.wide.moving;
     if effort == Effort::Share && model.aim == Aim::Optimum && rewards {
         improve(model, ITERATIONS_OF_REWARDS, incumbent, rng, budget);
@@ -80,8 +69,14 @@ pub fn prove(
             return quickly(model, incumbent, known, Care::Little);
         }
     }
-    if resource(model) == Resource::Energy && !model.wide.moving {
-        knapsack::thin(&mut network, model, incumbent.cutoff());
+    let network = Network::new(model, incumbent.cutoff());
+    let arrivals = network.arcs.len() * INTERVALS;
+    let most = if model.wide.moving { MOST_MOVING_ARCS_OF_SHARE } else { usize::MAX };
+    let share =
+        SHARES.iter().find(|share| arrivals <= share.1.min(most)).map_or(0, |share| share.0);
+    let rounds = if effort == Effort::Whole { ROUNDS } else { share };
+    if rounds == 0 {
+        return quickly(model, incumbent, known, Care::Whole);
     }
     let Some(paths) = Prover::paths(model, &network, incumbent, budget) else {
         return quickly(model, incumbent, known, Care::Little);

@@ -204,9 +204,11 @@ impl<'n> Relaxation<'n> {
     pub fn refine(&mut self, memory: Memory, tally: Tally) {
         let n = memory.of.len();
         let before = self.tally.states;
-        for graph in [&mut self.graph, &mut self.other] {
-            let places = graph.live.chunks_exact(before);
-            graph.live = places.flat_map(|live| live.repeat(tally.states / before)).collect();
+        if tally.states > before {
+            for graph in [&mut self.graph, &mut self.other] {
+                let places = graph.live.chunks_exact(before);
+                graph.live = places.flat_map(|live| live.repeat(tally.states / before)).collect();
+            }
         }
         self.offset = vec![0; n + 1];
         for i in 0..n {

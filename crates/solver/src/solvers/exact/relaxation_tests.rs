@@ -28,7 +28,7 @@ fn bounds_stay_below(document: &Document, intervals: usize) -> bool {
     let above = best + 4.0 * tolerance(best);
     let instance = Instance::new(&scenario);
     let model = Model::new(&instance, Aim::Optimum);
-    let network = Network::new(&model);
+    let network = Network::new(&model, f64::INFINITY);
     let memory = Memory::nearest(&network, |a, b| model.wide.distance_m(a, b), 3);
     let resource = resource(&model);
     let horizon = match resource {

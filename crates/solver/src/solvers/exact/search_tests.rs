@@ -18,7 +18,7 @@ fn costs(document: &Document, widths: &[usize]) -> Vec<f64> {
     let scenario = Scenario::from_document(document).unwrap();
     let instance = Instance::new(&scenario);
     let model = Model::new(&instance, Aim::Optimum);
-    let network = Network::new(&model);
+    let network = Network::new(&model, f64::INFINITY);
     let stop = MaxIterations(10_000_000);
     let mut budget = Budget::new(&stop);
     let mut paths = Prover::paths(&model, &network, &Incumbent::none(&model), &mut budget).unwrap();
