@@ -16,6 +16,9 @@ mod enumerate;
 pub mod exact;
 mod greedy;
 mod grow;
+#[cfg(test)]
+#[path = "../../tests/mixed/mod.rs"]
+mod mixed;
 mod mst;
 mod name;
 mod paper;

@@ -6,15 +6,13 @@ use rand_pcg::rand_core::SeedableRng;
 use super::search::{first_run, fitted, search, whole_runs};
 use crate::instance::Instance;
 use crate::scenario::Scenario;
-use crate::solvers::{Budget, enumerate::enumerate};
+use crate::solvers::{Budget, enumerate::enumerate, mixed};
 use crate::stop::MaxIterations;
 use crate::tolerance::agrees;
 use crate::tour::{Tour, Value};
 
 #[path = "../../../tests/golden/mod.rs"]
 mod golden;
-#[path = "../../../tests/mixed/mod.rs"]
-mod mixed;
 
 /// How often the search may miss the best tour: without the triangle inequality a set of stops may be
 /// legal though none of its subsets is.

@@ -16,6 +16,8 @@ mod counting;
 mod fixing;
 mod incumbent;
 mod knapsack;
+#[cfg(test)]
+mod knapsack_tests;
 mod label;
 mod layers;
 mod layout;

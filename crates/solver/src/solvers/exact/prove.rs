@@ -81,7 +81,9 @@ pub fn prove(
     let Some(paths) = Prover::paths(model, &network, incumbent, budget) else {
         return quickly(model, incumbent, known, Care::Little);
     };
-    let prover = Prover { model, network: &network, paths, effort, incumbent, rng, budget };
+    let is_hard = false;
+    let prover =
+        Prover { model, network: &network, paths, effort, incumbent, rng, budget, is_hard };
     match words {
         0..=1 => prover.prove::<1>(rounds, known),
         2 => prover.prove::<2>(rounds, known),

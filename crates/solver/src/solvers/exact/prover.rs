@@ -38,8 +38,10 @@ const MOST_ITERATIONS: u64 = 20_000;
 const WIDE_GAP: f64 = 0.15;
 const ITERATIONS_OF_WIDE_GAP: u64 = 300;
 const ITERATIONS_OF_WIDE_GAP_IN_SHARE: u64 = 2_000;
-/// Where the first search leaves this share open, one more will hardly do.
+/// Where the first search leaves this share open, one more will hardly do; and where the first bound leaves this, not
+/// even that search: what a share does for the tour between the two comes before both.
 const LONG_GAP: f64 = 0.1;
+const HARD_GAP: f64 = 0.2;
 /// Neighbours that every candidate remembers from the beginning; where the proof may be short, paths that
 /// remember more cost less than a second round.
 const FIRST_MEMORY: usize = 2;
@@ -69,6 +71,8 @@ pub struct Prover<'p, 'a, 'b> {
     pub incumbent: &'p mut Incumbent,
     pub rng: &'p mut Pcg64Mcg,
     pub budget: &'p mut Budget<'b>,
+    /// Whether the first bound said that the proof will be long.
+    pub is_hard: bool,
 }
 
 impl<'p> Prover<'p, '_, '_> {
@@ -113,7 +117,9 @@ impl<'p> Prover<'p, '_, '_> {
             }
             labels = (3 * labels).min(most_labels::<W>());
             let is_long = round > 0 || self.is_open(bound, LONG_GAP);
-            self.improve(self.iterations(labels, is_long));
+            if round > 0 || !self.is_hard {
+                self.improve(self.iterations(labels, is_long));
+            }
             if self.incumbent.suffices() {
                 return self.closed();
             }
@@ -217,8 +223,11 @@ impl<'p> Prover<'p, '_, '_> {
             return End::Open(ascent.best.bound);
         }
         if round == 0 && few(model) && self.is_open(ascent.best.bound, WIDE_GAP) {
+            self.is_hard =
+                self.effort == Effort::Share && self.is_open(ascent.best.bound, HARD_GAP);
             self.improve(match self.effort {
                 Effort::Whole => ITERATIONS_OF_WIDE_GAP,
+                Effort::Share if self.is_hard => self.iterations(labels, true),
                 Effort::Share => ITERATIONS_OF_WIDE_GAP_IN_SHARE,
             });
             if self.incumbent.suffices() {

@@ -5,14 +5,9 @@ use super::{Aim, Model};
 use crate::generate::{KCoverage, Mobile, Reward, k_coverage, mobile, reward};
 use crate::instance::Instance;
 use crate::scenario::{Objective, Scenario};
-use crate::solvers::{Options, SolverName, solve};
+use crate::solvers::{Options, SolverName, mixed, solve};
 use crate::stop::MaxIterations;
 use crate::tolerance::tolerance;
-
-// Shared with the tests of the baseline.
-#[allow(clippy::duplicate_mod)]
-#[path = "../../../tests/mixed/mod.rs"]
-mod mixed;
 
 /// The quick bound, and the best cost where it is proven; infinite without a feasible tour.
 fn both(scenario: &Scenario) -> Option<(f64, f64)> {
