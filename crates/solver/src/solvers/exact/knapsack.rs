@@ -2,6 +2,7 @@
 //! neighbour.
 
 use super::Model;
+use super::layers::resource;
 use super::multipliers::Ascent;
 use super::network::{Network, leg_m, settle};
 use super::relaxation::Resource;
@@ -10,7 +11,7 @@ use super::relaxation::Resource;
 /// fewer stops than the knapsack: its energy is worth more.
 const SHARE: f64 = 0.25;
 
-/// What each candidate takes of the resource, with a typical way to it; and how much there is.
+/// What each candidate takes of the resource at least, or about so much where sensors move; and how much there is.
 pub fn takes(model: &Model<'_>, resource: Resource) -> (Vec<f64>, f64) {
     let instance = &model.wide;
     let charger = &instance.scenario.charger;
@@ -34,35 +35,40 @@ pub fn takes(model: &Model<'_>, resource: Resource) -> (Vec<f64>, f64) {
     ((0..model.len()).map(takes).collect(), limit)
 }
 
-/// Closes arcs between candidates at rest that no tour takes which costs less than `cutoff`, where energy is scarce and
-/// metres cost nothing.
-///
-/// What a stop is worth beyond the energy that it takes at least is charged for the visit. No arc then costs less than
-/// nothing, so that the cheapest way to its tail and from its head, whatever energy that takes, bounds every tour
-/// that takes it.
-pub fn thin(network: &mut Network, model: &Model<'_>, cutoff: f64) {
-    if cutoff == f64::INFINITY {
-        return;
+impl Network {
+    /// Where energy is scarce, metres cost nothing and nothing moves: closes arcs that no tour takes which costs less
+    /// than `cutoff`.
+    ///
+    /// What a stop is worth beyond the energy that it takes at least is charged for the visit. No arc between
+    /// candidates then costs less than nothing, so that the cheapest way to its tail and from its head, whatever
+    /// energy that takes, bounds every tour that takes it.
+    pub fn thin(&mut self, model: &Model<'_>, cutoff: f64) {
+        let instance = &model.wide;
+        if resource(model) != Resource::Energy || instance.moving || cutoff == f64::INFINITY {
+            return;
+        }
+        let (takes, capacity_j) = takes(model, Resource::Energy);
+        let mut ascent = Ascent::new(model, true);
+        ascent.begin_knapsack(model, &takes, SHARE * capacity_j);
+        let knapsack = ascent.best;
+        if knapsack.prices.per_j <= 0.0 {
+            return;
+        }
+        let per_m = instance.scenario.charger.travel_jpm;
+        let cost = |from: usize, to: usize| {
+            let energy_j = per_m * leg_m(instance, from, to) + self.charge_j[to];
+            knapsack.prices.per_j * energy_j - knapsack.prices.prizes[to]
+        };
+        let n = model.len();
+        let reach = settle((0..n).map(|to| cost(instance.start(), to)).collect(), cost);
+        let ends = self.home_j[..n].iter().map(|home_j| knapsack.prices.per_j * home_j).collect();
+        let go_on = settle(ends, |later, earlier| cost(earlier, later));
+        let most = cutoff - knapsack.constant + knapsack.rounding;
+        self.retain(|from, arc| {
+            let before = if from == instance.start() { 0.0 } else { reach[from] };
+            before + knapsack.prices.of(arc) + go_on[arc.to as usize] < most
+        });
     }
-    let (takes, capacity_j) = takes(model, Resource::Energy);
-    let mut ascent = Ascent::new(model, true);
-    ascent.begin_knapsack(model, &takes, SHARE * capacity_j);
-    let (prices, instance) = (&ascent.best.prices, &model.wide);
-    if prices.per_j <= 0.0 {
-        return;
-    }
-    let per_m = instance.scenario.charger.travel_jpm;
-    let cost = |from: usize, to: usize| {
-        let energy_j = per_m * leg_m(instance, from, to) + network.charge_j[to];
-        prices.per_j * energy_j - prices.prizes[to]
-    };
-    let n = model.len();
-    let reach = settle((0..n).map(|to| cost(n, to)).collect(), cost);
-    let ends = network.home_j[..n].iter().map(|home_j| prices.per_j * home_j).collect();
-    let go_on = settle(ends, |later, earlier| cost(earlier, later));
-    let most = cutoff - ascent.best.constant + ascent.best.rounding;
-    let before = |from: usize| if from == n { 0.0 } else { reach[from] };
-    network.retain(|from, arc| before(from) + prices.of(arc) + go_on[arc.to as usize] < most);
 }
 
 /// Roughly how far two candidates are apart, in metres.

@@ -1,9 +1,6 @@
 //! The arcs that a feasible tour may use, and bounds on the time and energy at which it uses them.
 
 use super::Model;
-use super::knapsack;
-use super::layers::resource;
-use super::relaxation::Resource;
 use crate::instance::Instance;
 use crate::tour::Run;
 
@@ -64,9 +61,7 @@ impl Network {
             }
             network.first.push(network.arcs.len());
         }
-        if resource(model) == Resource::Energy && !instance.moving {
-            knapsack::thin(&mut network, model, cutoff);
-        }
+        network.thin(model, cutoff);
         // Near ones first: their heads remember more of what their tails do.
         for from in 0..=n {
             let leaving = network.leaving(from);

@@ -38,9 +38,10 @@ const MOST_ITERATIONS: u64 = 20_000;
 const WIDE_GAP: f64 = 0.15;
 const ITERATIONS_OF_WIDE_GAP: u64 = 300;
 const ITERATIONS_OF_WIDE_GAP_IN_SHARE: u64 = 2_000;
-/// Where the first search leaves this share open, one more will hardly do; and where the first bound leaves this, not
-/// even that search: what a share does for the tour between the two comes before both.
+/// Where the first search leaves this share open, one more will hardly do.
 const LONG_GAP: f64 = 0.1;
+/// Where the first bound leaves this share open, not even the first search will: what a share does for the tour after
+/// it then comes before it.
 const HARD_GAP: f64 = 0.2;
 /// Neighbours that every candidate remembers from the beginning; where the proof may be short, paths that
 /// remember more cost less than a second round.
