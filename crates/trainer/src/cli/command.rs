@@ -38,7 +38,7 @@ enum Command {
     /// Train a policy for a problem
     Train(Box<train::Args>),
     /// Measure a model against proven optima
-    Evaluate(evaluate::Args),
+    Evaluate(Box<evaluate::Args>),
     /// Write the best network of a checkpoint as an ONNX model
     Export(export::Args),
 }
@@ -47,7 +47,7 @@ enum Command {
 pub fn run(cli: Cli) -> ExitCode {
     let done: Result<()> = match cli.command {
         Command::Train(args) => train::run(*args),
-        Command::Evaluate(args) => evaluate::run(args),
+        Command::Evaluate(args) => evaluate::run(*args),
         Command::Export(args) => export::run(args),
     };
     let Err(error) = done else { return ExitCode::SUCCESS };

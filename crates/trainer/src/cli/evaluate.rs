@@ -7,7 +7,7 @@ use voltour_solver::generate::{Cell, FIRST_TEST_SEED};
 use voltour_solver::instance::Instance;
 use voltour_solver::policy::Problem;
 use voltour_solver::scenario::Scenario;
-use voltour_trainer::evaluate::{Method, Optima, Optimum, Run, Summary, Table};
+use voltour_trainer::evaluate::{Method, Optima, Optimum, Paired, Run, Summary, Table};
 use voltour_trainer::network::Network;
 use voltour_trainer::onnx::Model;
 use voltour_trainer::{Error, Result};
@@ -36,6 +36,12 @@ pub struct Args {
     /// Seed of the methods.
     #[arg(long, default_value_t = 0)]
     seed: u64,
+    /// Run every scenario with so many seeds, from that one on.
+    #[arg(long, default_value_t = 1, value_name = "COUNT", value_parser = clap::value_parser!(u16).range(1..))]
+    seeds: u16,
+    /// Compare the other methods with the last one, scenario by scenario and seed by seed.
+    #[arg(long)]
+    paired: bool,
     /// File of the proofs so far; new ones are added.
     #[arg(long, value_name = "FILE")]
     optima: Option<PathBuf>,
@@ -77,6 +83,9 @@ pub fn run(args: Args) -> Result<()> {
         eprintln!("{cell}");
     }
     println!("{}", table.markdown());
+    if args.paired {
+        println!("{}", table.comparisons());
+    }
     match &args.csv {
         Some(path) => std::fs::write(path, table.csv()).map_err(Error::file(path)),
         None => Ok(()),
@@ -94,20 +103,35 @@ fn measure(
     table: &mut Table,
 ) -> Result<()> {
     let mut summaries = vec![Summary::default(); args.methods.len()];
+    let mut pairs = vec![Paired::default(); args.methods.len()];
     for (instance, optimum) in instances.iter().zip(known) {
         let Some(best) = optimum.objective else { continue };
-        let mut before: Option<Run> = None;
-        for (method, summary) in args.methods.iter().zip(&mut summaries) {
-            let as_long_s = before.map_or(0.0, |run| run.seconds);
-            let run = method
-                .run(instance, network, args.seed, args.limit_s, as_long_s)
-                .map_err(|e| Error::Scenario(e.to_string()))?;
-            summary.add(&run, best);
-            before = Some(run);
+        // By method, then by seed.
+        let mut gaps = vec![Vec::new(); args.methods.len()];
+        for seed in (args.seed..).take(args.seeds.into()) {
+            let mut before: Option<Run> = None;
+            for (i, method) in args.methods.iter().enumerate() {
+                let as_long_s = before.map_or(0.0, |run| run.seconds);
+                let run = method
+                    .run(instance, network, seed, args.limit_s, as_long_s)
+                    .map_err(|e| Error::Scenario(e.to_string()))?;
+                gaps[i].push(summaries[i].add(&run, best));
+                before = Some(run);
+            }
+        }
+        let last = gaps.last().cloned().unwrap_or_default();
+        for (gaps, paired) in gaps.into_iter().zip(&mut pairs) {
+            paired.add(gaps.into_iter().zip(last.iter().copied()));
         }
     }
+    let cell = cell.to_string();
+    let last = args.methods.last().map_or_else(String::new, Method::to_string);
+    pairs.pop();
+    for (method, paired) in args.methods.iter().zip(pairs) {
+        table.compare(&cell, &format!("{method} - {last}"), paired);
+    }
     for (method, summary) in args.methods.iter().zip(summaries) {
-        table.push(&cell.to_string(), &method.to_string(), known, summary);
+        table.push(&cell, &method.to_string(), known, summary);
     }
     Ok(())
 }

@@ -2,10 +2,12 @@
 
 mod method;
 mod optima;
+mod paired;
 mod table;
 
 pub use method::{METHODS, Method, Run, UnknownMethod};
 pub use optima::{Optima, Optimum};
+pub use paired::Paired;
 pub use table::{Summary, Table};
 
 #[cfg(test)]

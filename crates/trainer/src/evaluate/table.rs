@@ -4,14 +4,14 @@ use std::fmt::Write;
 
 use voltour_solver::gap::to_best;
 
-use super::{Optimum, Run};
+use super::{Optimum, Paired, Run};
 
 /// One method in one cell.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Summary {
-    /// Gaps of the scenarios solved, as shares.
+    /// Gaps of the runs that solved their scenario, as shares.
     pub gaps: Vec<f64>,
-    /// Scenarios that have a feasible tour.
+    /// Runs on scenarios that have a feasible tour.
     pub feasible: usize,
     /// Complete roll-outs of all scenarios.
     pub roll_outs: u64,
@@ -22,13 +22,15 @@ pub struct Summary {
 }
 
 impl Summary {
-    /// Adds what a method gave on a scenario that has a feasible tour.
-    pub fn add(&mut self, run: &Run, best: f64) {
+    /// Adds what a method gave on a scenario that has a feasible tour. Returns its gap; `None` if it did not solve it.
+    pub fn add(&mut self, run: &Run, best: f64) -> Option<f64> {
+        let gap = run.objective.map(|objective| to_best(objective, best));
         self.feasible += 1;
-        self.gaps.extend(run.objective.map(|objective| to_best(objective, best)));
+        self.gaps.extend(gap);
         self.roll_outs += run.roll_outs;
         self.valued += run.valued;
         self.seconds.push(run.seconds);
+        gap
     }
 
     /// Mean gap of the scenarios solved, as a share.
@@ -49,10 +51,11 @@ impl Summary {
     }
 }
 
-/// Rows of cell and method.
+/// Rows of cell and method, and methods beside another.
 #[derive(Clone, Debug, Default)]
 pub struct Table {
     rows: Vec<(String, String, usize, Summary)>,
+    pairs: Vec<(String, String, Paired)>,
 }
 
 impl Table {
@@ -60,6 +63,34 @@ impl Table {
     pub fn push(&mut self, cell: &str, method: &str, optima: &[Optimum], summary: Summary) {
         let proven = optima.iter().filter(|optimum| optimum.proven).count();
         self.rows.push((cell.to_owned(), method.to_owned(), proven, summary));
+    }
+
+    /// Adds how a method compares with another in a cell.
+    pub fn compare(&mut self, cell: &str, methods: &str, paired: Paired) {
+        self.pairs.push((cell.to_owned(), methods.to_owned(), paired));
+    }
+
+    /// The comparisons as Markdown, in points of gap; empty where there are none.
+    pub fn comparisons(&self) -> String {
+        if self.pairs.is_empty() {
+            return String::new();
+        }
+        let mut text = String::from(
+            "| cell | methods | mean difference | 95 % of cases | better | equal | worse |\n| --- | --- | --- | --- | --- | --- | --- |\n",
+        );
+        for (cell, methods, paired) in &self.pairs {
+            let (mean, margin) = (100.0 * paired.mean(), 100.0 * paired.margin());
+            let _ = writeln!(
+                text,
+                "| {cell} | {methods} | {mean:+.3} | {:+.3} to {:+.3} | {} | {} | {} |",
+                mean - margin,
+                mean + margin,
+                paired.better,
+                paired.equal,
+                paired.worse,
+            );
+        }
+        text
     }
 
     /// As CSV, with a head.

@@ -4,7 +4,7 @@ use voltour_solver::policy::Problem;
 use voltour_solver::policy::guided::Rule;
 use voltour_solver::scenario::Scenario;
 
-use super::{METHODS, Method, Optima, Optimum, Run, Summary, Table};
+use super::{METHODS, Method, Optima, Optimum, Paired, Run, Summary, Table};
 
 #[test]
 fn every_method_is_read_back_by_its_name() {
@@ -65,4 +65,23 @@ fn a_table_counts_what_was_solved() {
     table.push("mobile/8", "greedy", &[optimum; 2], summary);
     assert!(table.csv().ends_with("mobile/8,greedy,2,2,1,0.100000,0.100000,4.0,20.0,0.500000\n"));
     assert!(table.markdown().contains("| mobile/8 | greedy | 1 of 2 | 10.00 % | 4 | 20 | 500.0 |"));
+}
+
+#[test]
+fn a_comparison_is_of_scenarios_not_of_seeds() {
+    let mut paired = Paired::default();
+    assert_eq!(paired.margin(), f64::INFINITY);
+    // Two seeds each; the third scenario is solved by one of the two alone.
+    paired.add([(Some(0.01), Some(0.03)), (Some(0.0), Some(0.0))]);
+    paired.add([(Some(0.04), Some(0.0)), (Some(0.02), Some(0.0))]);
+    paired.add([(Some(0.0), None), (None, None)]);
+    assert_eq!((paired.better, paired.equal, paired.worse), (2, 2, 2));
+    // Of -0.01 and 0.03: mean 0.01, standard deviation 0.0283, standard error 0.02.
+    assert!((paired.mean() - 0.01).abs() < 1e-12);
+    assert!((paired.margin() - 1.96 * 0.02).abs() < 1e-12);
+    let mut table = Table::default();
+    assert_eq!(table.comparisons(), "");
+    table.compare("mobile/8", "auto - baseline", paired);
+    let row = "| mobile/8 | auto - baseline | +1.000 | -2.920 to +4.920 | 2 | 2 | 2 |\n";
+    assert!(table.comparisons().ends_with(row), "{}", table.comparisons());
 }
