@@ -14,6 +14,8 @@ pub struct Incumbent {
     pub cost: f64,
     /// The least cost of a tour that only the check's tolerance allows, not a solver's.
     pub beyond: f64,
+    /// Whether so long a search has come before it that a proof need not wait for another.
+    pub searched: bool,
     /// All costs are whole multiples of this; 0 if unknown.
     grain: f64,
     any: bool,
@@ -25,6 +27,7 @@ impl Incumbent {
             order: None,
             cost: f64::INFINITY,
             beyond: f64::INFINITY,
+            searched: false,
             grain: grain(model),
             any: model.aim == Aim::AnyTour,
         }

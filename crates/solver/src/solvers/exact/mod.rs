@@ -13,6 +13,7 @@
 mod bits;
 mod clusters;
 mod counting;
+mod effort;
 mod fixing;
 mod incumbent;
 mod knapsack;
@@ -54,10 +55,10 @@ mod timetable;
 mod turns;
 mod verdict;
 
+pub(super) use effort::Effort;
 use incumbent::Incumbent;
 use model::{Aim, Model};
 use places::Places;
-pub(super) use prove::Effort;
 use prove::prove;
 pub use quick::quick_bound;
 pub(super) use solve::solve;

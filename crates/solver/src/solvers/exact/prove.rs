@@ -3,6 +3,7 @@
 use rand_pcg::Pcg64Mcg;
 
 use super::counting;
+use super::effort::Effort;
 use super::incumbent::Incumbent;
 use super::layers::{INTERVALS, MOST_ARRIVALS};
 use super::model::{Aim, Model};
@@ -21,15 +22,6 @@ pub struct Proof {
     pub bound: f64,
     /// Whether the search has ended: the tour is the best, or there is none.
     pub closed: bool,
-}
-
-/// How much work a proof may be: rounds, by the size of what they work on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Effort {
-    /// As long as the budget lasts; after this many rounds searches have long reached their limits.
-    Whole,
-    /// What a second or two are worth, so that the rest of a planner's time is left to others.
-    Share,
 }
 
 /// Rounds of a whole proof at most.
@@ -81,9 +73,7 @@ pub fn prove(
     let Some(paths) = Prover::paths(model, &network, incumbent, budget) else {
         return quickly(model, incumbent, known, Care::Little);
     };
-    let is_hard = false;
-    let prover =
-        Prover { model, network: &network, paths, effort, incumbent, rng, budget, is_hard };
+    let prover = Prover { model, network: &network, paths, effort, incumbent, rng, budget };
     match words {
         0..=1 => prover.prove::<1>(rounds, known),
         2 => prover.prove::<2>(rounds, known),

@@ -2,6 +2,7 @@
 
 use rand_pcg::Pcg64Mcg;
 
+use super::effort::{Effort, long_search};
 use super::incumbent::Incumbent;
 use super::knapsack::{self, apart_m};
 use super::layers::{few, layers, resource};
@@ -9,11 +10,11 @@ use super::memory::Memory;
 use super::model::{Aim, Model};
 use super::multipliers::{Ascent, Multipliers};
 use super::network::Network;
-use super::prove::{Effort, Proof, improve, quickly};
+use super::prove::{Proof, improve, quickly};
 use super::quick::{Care, quick};
 use super::relaxation::{Reading, Relaxation, Resource};
 use super::search::{End, Search};
-use crate::solvers::{Budget, baseline};
+use crate::solvers::Budget;
 
 /// Steps of the ascent in the first round, the same where the proof may be short, and in later ones.
 const FIRST_STEPS: u32 = 30;
@@ -27,9 +28,7 @@ const FIRST_LABELS: usize = 12_000;
 const MOST_LABEL_BYTES: usize = 600 << 20;
 /// The baseline does one iteration for so many labels; where sensors move, an iteration takes long.
 const LABELS_PER_ITERATION: usize = 36;
-/// In a share, where the proof turns out to be long, time is better spent on the tour first: iterations for each
-/// cube of its stops, and at most.
-const ITERATIONS_OF_LONG_PROOF: u64 = 3;
+/// In a share, where the proof turns out to be long, time is better spent on the tour first: for so many at most.
 const MOST_ITERATIONS_OF_LONG_PROOF: u64 = 100_000;
 const LABELS_PER_MOVING_ITERATION: usize = 500;
 const MOST_ITERATIONS: u64 = 20_000;
@@ -72,8 +71,6 @@ pub struct Prover<'p, 'a, 'b> {
     pub incumbent: &'p mut Incumbent,
     pub rng: &'p mut Pcg64Mcg,
     pub budget: &'p mut Budget<'b>,
-    /// Whether the first bound said that the proof will be long.
-    pub is_hard: bool,
 }
 
 impl<'p> Prover<'p, '_, '_> {
@@ -118,7 +115,7 @@ impl<'p> Prover<'p, '_, '_> {
             }
             labels = (3 * labels).min(most_labels::<W>());
             let is_long = round > 0 || self.is_open(bound, LONG_GAP);
-            if round > 0 || !self.is_hard {
+            if round > 0 || !self.incumbent.searched {
                 self.improve(self.iterations(labels, is_long));
             }
             if self.incumbent.suffices() {
@@ -223,14 +220,15 @@ impl<'p> Prover<'p, '_, '_> {
         if self.budget.is_spent() {
             return End::Open(ascent.best.bound);
         }
-        if round == 0 && few(model) && self.is_open(ascent.best.bound, WIDE_GAP) {
-            self.is_hard =
-                self.effort == Effort::Share && self.is_open(ascent.best.bound, HARD_GAP);
+        let is_wide = self.is_open(ascent.best.bound, WIDE_GAP);
+        if round == 0 && few(model) && is_wide && !self.incumbent.searched {
+            let is_hard = self.is_open(ascent.best.bound, HARD_GAP);
             self.improve(match self.effort {
                 Effort::Whole => ITERATIONS_OF_WIDE_GAP,
-                Effort::Share if self.is_hard => self.iterations(labels, true),
+                Effort::Share if is_hard => self.iterations(labels, true),
                 Effort::Share => ITERATIONS_OF_WIDE_GAP_IN_SHARE,
             });
+            self.incumbent.searched = self.effort == Effort::Share && is_hard;
             if self.incumbent.suffices() {
                 return End::Closed;
             }
@@ -299,10 +297,7 @@ impl<'p> Prover<'p, '_, '_> {
         }
         let stops = self.incumbent.order.as_ref().map_or(0, Vec::len) as u64;
         match self.effort {
-            Effort::Share if is_long => {
-                let iterations = ITERATIONS_OF_LONG_PROOF * stops.pow(3);
-                baseline::whole_runs(stops, iterations.min(MOST_ITERATIONS_OF_LONG_PROOF))
-            }
+            Effort::Share if is_long => long_search(stops, MOST_ITERATIONS_OF_LONG_PROOF),
             _ => ((labels / LABELS_PER_ITERATION) as u64).min(MOST_ITERATIONS),
         }
     }

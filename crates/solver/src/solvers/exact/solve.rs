@@ -2,6 +2,7 @@
 
 use rand_pcg::Pcg64Mcg;
 
+use super::effort::First;
 use super::{Aim, Effort, Incumbent, Model, prove};
 use crate::instance::Instance;
 use crate::scenario::Objective;
@@ -9,18 +10,6 @@ use crate::solvers::entry::{Claim, Found};
 use crate::solvers::{Budget, SolverName, baseline, enumerate};
 use crate::tour::{Tour, Value};
 
-/// Iterations of the baseline before the first bound: a good tour of a small instance.
-const FIRST: u64 = 60;
-/// In a share, whose budget may end before the first bound is there: so many for each stop of the tour, too.
-const FIRST_PER_STOP_OF_SHARE: u64 = 8;
-/// And where nothing moves and metres are the cost, one for so many of the fourth power of the stops, up to a limit:
-/// the more stops, the longer the bounds take and the less they show, while the tour may still have the wrong stops.
-/// Tours of fewer stops than this are proven about as soon as they are searched for.
-const FOURTH_POWERS_PER_FIRST: u64 = 110;
-const FEWEST_STOPS_OF_POWER: u64 = 21;
-const MOST_OF_POWER: u64 = 14_000;
-/// In a share where the stops at moving sensors are counted, no more: the proof's own search finds better tours.
-const FIRST_OF_COUNT: u64 = 5;
 /// Iterations of the baseline for a tour that breaks as little as can be.
 const BEST_EFFORT: u64 = 2_000;
 /// Iterations of the baseline that make a proven tour shorter, or earlier, without changing its objective.
@@ -38,18 +27,15 @@ pub fn solve(
     budget: &mut Budget<'_>,
 ) -> Found {
     let before = budget.iterations();
-    let first = match effort {
-        Effort::Whole => FIRST,
-        Effort::Share => first_of_share(instance, start.len() as u64),
-    };
-    let mut order = improved(instance, start, first, rng, budget);
+    let mut first = First::of(effort, instance, start);
+    let mut order = improved(instance, start, first.iterations, rng, budget);
     let mut claim = Claim::None;
     if !is_feasible(instance, &order) {
         let model = Model::new(instance, Aim::AnyTour);
         let mut any = Incumbent::none(&model);
         let proof = prove(&model, effort, &mut any, rng, budget);
         match proof.order {
-            Some(feasible) => order = feasible,
+            Some(feasible) => (order, first.whole) = (feasible, false),
             None => {
                 if proof.closed && any.beyond == f64::INFINITY {
                     claim = Claim::Infeasible;
@@ -63,6 +49,7 @@ pub fn solve(
         let model = Model::new(instance, Aim::Optimum);
         let mut incumbent = Incumbent::none(&model);
         incumbent.offer(&model, order.clone());
+        incumbent.searched = first.whole;
         let proof = prove(&model, effort, &mut incumbent, rng, budget);
         claim = match (proof.order, proof.closed) {
             (Some(best), _) => {
@@ -79,20 +66,6 @@ pub fn solve(
     }
     let iterations = vec![("proof".to_owned(), budget.iterations() - before)];
     Found { order, solver: SolverName::Exact, iterations, claim }
-}
-
-/// Iterations that come before the bounds of a share, for the stops of the tour that it begins with: until they are
-/// over it does what the baseline alone would do.
-fn first_of_share(instance: &Instance<'_>, stops: u64) -> u64 {
-    let first = FIRST + FIRST_PER_STOP_OF_SHARE * stops;
-    let power = match instance.scenario.objective {
-        Objective::MaxCount if instance.moving => return FIRST_OF_COUNT,
-        _ if instance.moving => return first,
-        Objective::MinDistance if stops < FEWEST_STOPS_OF_POWER => 0,
-        Objective::MinDistance => stops.saturating_pow(4) / FOURTH_POWERS_PER_FIRST,
-        Objective::MaxReward | Objective::MaxCount => 0,
-    };
-    baseline::whole_runs(stops, first + power.min(MOST_OF_POWER))
 }
 
 /// The best of all tours where they are few; else the tour after some iterations of the baseline.
@@ -127,7 +100,7 @@ fn improved(
     })
 }
 
-fn is_feasible(instance: &Instance<'_>, order: &[u32]) -> bool {
+pub(super) fn is_feasible(instance: &Instance<'_>, order: &[u32]) -> bool {
     let tour = Tour::new(instance, order);
     tour.is_legal() && Value::of(instance, &tour).is_feasible()
 }
