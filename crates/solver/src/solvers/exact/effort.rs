@@ -70,7 +70,7 @@ impl First {
 
 /// Iterations that a tour of so many stops needs where its proof is long, but about this many at most.
 pub fn long_search(stops: u64, most: u64) -> u64 {
-    baseline::whole_runs(stops, (LONG_PER_CUBE * stops.saturating_pow(3)).min(most))
+    baseline::whole_runs(stops, LONG_PER_CUBE.saturating_mul(stops.saturating_pow(3)).min(most))
 }
 
 fn is_long(instance: &Instance<'_>, stops: u64) -> bool {

@@ -14,6 +14,8 @@ mod bits;
 mod clusters;
 mod counting;
 mod effort;
+#[cfg(test)]
+mod effort_tests;
 mod fixing;
 mod incumbent;
 mod knapsack;
