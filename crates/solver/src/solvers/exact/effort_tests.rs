@@ -48,7 +48,7 @@ fn a_share_that_ends_before_its_bounds_gives_the_baselines_tour() {
 }
 
 #[test]
-fn few_stops_and_nearly_all_candidates_are_bounded_early() {
+fn bounds_come_early_where_the_proof_is_short() {
     for cell in ["k_coverage/32/2/0.2", "k_coverage/48/3/0.2", "reward/120/300000/1", "mobile/20"] {
         drawn(cell, |instance, start| {
             let first = First::of(Effort::Share, instance, start);
