@@ -11,11 +11,15 @@ use crate::scenario::Scenario;
 use crate::solvers::{Budget, baseline, greedy};
 use crate::stop::MaxIterations;
 
-/// Scenarios of a cell with greedy's tour of each.
-fn drawn(cell: &str, test: impl Fn(&Instance<'_>, &[u32])) {
+/// Scenarios of a cell, as they are or with every request required and in no haste, with greedy's tour of each.
+fn drawn(cell: &str, required: bool, test: impl Fn(&Instance<'_>, &[u32])) {
     let cell: Cell = cell.parse().unwrap();
     for seed in 0..8 {
-        let scenario = Scenario::from_document(&cell.draw(seed).unwrap()).unwrap();
+        let mut document = cell.draw(seed).unwrap();
+        for request in document.requests.iter_mut().filter(|_| required) {
+            (request.required, request.deadline_s) = (Some(true), None);
+        }
+        let scenario = Scenario::from_document(&document).unwrap();
         let instance = Instance::new(&scenario);
         let start = greedy::greedy(&instance, &mut Budget::new(&MaxIterations(u64::MAX)));
         test(&instance, &start);
@@ -25,7 +29,7 @@ fn drawn(cell: &str, test: impl Fn(&Instance<'_>, &[u32])) {
 #[test]
 fn a_share_that_ends_before_its_bounds_gives_the_baselines_tour() {
     let (hard, iterations) = (std::cell::Cell::new(0), 3_000);
-    drawn("k_coverage/48/3/0.8", |instance, start| {
+    drawn("k_coverage/48/3/0.8", false, |instance, start| {
         let first = First::of(Effort::Share, instance, start);
         assert_eq!(first.whole, is_feasible(instance, start), "{start:?}");
         if !first.whole {
@@ -49,12 +53,23 @@ fn a_share_that_ends_before_its_bounds_gives_the_baselines_tour() {
 
 #[test]
 fn bounds_come_early_where_the_proof_is_short() {
-    for cell in ["k_coverage/32/2/0.2", "k_coverage/48/3/0.2", "reward/120/300000/1", "mobile/20"] {
-        drawn(cell, |instance, start| {
+    for cell in ["k_coverage/32/2/0.2", "k_coverage/80/3/0.45", "reward/120/300000/1", "mobile/20"]
+    {
+        drawn(cell, false, |instance, start| {
             let first = First::of(Effort::Share, instance, start);
             assert!(!first.whole && first.iterations < 1_000, "{cell}: {first:?}");
         });
     }
+}
+
+#[test]
+fn a_tour_of_all_candidates_is_not_searched_for_long() {
+    let feasible = std::cell::Cell::new(0);
+    drawn("k_coverage/80/3/0.45", true, |instance, start| {
+        feasible.set(feasible.get() + u32::from(is_feasible(instance, start)));
+        assert!(!First::of(Effort::Share, instance, start).whole, "{start:?}");
+    });
+    assert!(feasible.get() > 0);
 }
 
 #[test]
