@@ -90,6 +90,30 @@ fn without_a_policy_dqn_plans_by_the_baseline() {
 }
 
 #[test]
+fn a_policy_that_takes_all_the_time_leaves_a_whole_construction() {
+    struct Slow;
+    impl QFunction for Slow {
+        fn values(&self, _: &Batch) -> Result<Vec<f32>, QError> {
+            Err(QError::TooSlow)
+        }
+    }
+    let small = KCoverage { sensors: 32, k: 2, alpha: 0.15, ..KCoverage::default() };
+    let small = Scenario::from_document(&generate::k_coverage(&small, 5).unwrap()).unwrap();
+    assert!((3..=8).contains(&small.requests.len()), "{}", small.requests.len());
+    for scenario in drawn(4).iter().chain([&small]) {
+        let outcome = solved(scenario, SolverName::Dqn, 0, Some(&Slow));
+        assert_eq!(outcome.policy, PolicyUse::Failed(QError::TooSlow));
+        assert_eq!(outcome.plan.solver, "baseline");
+        let built = solved(scenario, SolverName::Greedy, 1_000, None);
+        assert!(outcome.plan.status.is_feasible() && !built.plan.stops.is_empty());
+        assert!(outcome.plan.stops.len() >= built.plan.stops.len(), "{:?}", outcome.plan);
+    }
+    let best = solved(&small, SolverName::Exact, u64::MAX, None).plan.objective;
+    let whole = solved(&small, SolverName::Dqn, 0, Some(&Slow)).plan.objective;
+    assert!((whole - best).abs() < 1e-9, "{whole}, {best}");
+}
+
+#[test]
 fn a_policy_that_breaks_costs_nothing_but_itself() {
     type How = fn(Vec<f32>) -> Result<Vec<f32>, QError>;
     let nan: How = |q| Ok(vec![f32::NAN; q.len()]);

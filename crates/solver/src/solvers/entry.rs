@@ -147,14 +147,9 @@ pub fn solve_with(
         SolverName::Dqn => {
             let effort = Effort::whole(Problem::of(instance.scenario.objective));
             let (found, fared) = dqn::dqn(instance, options.policy, effort, &mut rng, &mut budget);
-            let mut all: Vec<Found> = found.into_iter().collect();
-            // The policy makes a plan better, never possible: what it left undone is the baseline's.
-            if fared != PolicyUse::Built {
-                let order = all.first().map_or_else(Vec::new, |found| found.order.clone());
-                all.push(baseline::solve(instance, &order, &mut rng, &mut budget));
-            }
             policy = fared;
-            all
+            // The policy makes a plan better, never possible: what it left undone is the baseline's.
+            vec![found.unwrap_or_else(|| baseline::finish(instance, &mut rng, &mut budget))]
         }
         SolverName::Baseline => vec![baseline::solve(instance, &[], &mut rng, &mut budget)],
         SolverName::Greedy => {

@@ -9,8 +9,8 @@ mod recreate;
 mod ruin;
 mod search;
 
-pub use search::solve;
-pub(super) use search::{search, whole_runs};
+pub(super) use search::{construction, search, whole_runs};
+pub use search::{finish, solve};
 
 #[cfg(test)]
 mod tests;

@@ -66,6 +66,19 @@ pub fn solve(
     search(instance, start, None, rng, budget)
 }
 
+/// [`solve`] from nothing, for when others have had the budget: even if it is spent, the construction is finished, for
+/// a tour cut short would leave out what a moment more can serve; of a small instance, the enumeration.
+pub fn finish(instance: &Instance<'_>, rng: &mut Pcg64Mcg, budget: &mut Budget<'_>) -> Found {
+    let small = instance.len() <= enumerate::MOST;
+    let least = if small { u64::MAX } else { construction(instance) };
+    budget.part(least, u64::MAX, |part| solve(instance, &[], rng, part))
+}
+
+/// As many iterations as a construction may take.
+pub(in crate::solvers) fn construction(instance: &Instance<'_>) -> u64 {
+    2 * instance.len() as u64
+}
+
 /// [`solve`] without the enumeration of small instances. Where it is known how many iterations there will be, the
 /// annealing runs are fitted to them, so that the last one is not cut off while it is warm.
 pub(in crate::solvers) fn search(

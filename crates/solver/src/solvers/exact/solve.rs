@@ -93,7 +93,7 @@ fn improved(
     budget: &mut Budget<'_>,
 ) -> Vec<u32> {
     // A construction cut short would be worse than one made with less time: it is finished first.
-    let built = if order.is_empty() { 2 * instance.len() as u64 } else { 0 };
+    let built = if order.is_empty() { baseline::construction(instance) } else { 0 };
     let known = (built == 0).then_some(iterations);
     budget.part(built, built + iterations, |part| {
         baseline::search(instance, order, known, rng, part).order
