@@ -58,6 +58,14 @@ pub struct Args {
 
 /// Prints a table in Markdown.
 pub fn run(args: Args) -> Result<()> {
+    if args.paired && args.methods.len() < 2 {
+        let value = args.methods.iter().map(Method::to_string).collect();
+        return Err(Error::Option {
+            name: "methods",
+            value,
+            rule: "must be two or more with --paired",
+        });
+    }
     let model = Model::load(&args.model)?;
     let problem: Problem =
         model.metadata.problem.parse().map_err(|e| Error::format(&args.model, format!("{e}")))?;
@@ -83,9 +91,7 @@ pub fn run(args: Args) -> Result<()> {
         eprintln!("{cell}");
     }
     println!("{}", table.markdown());
-    if args.paired {
-        println!("{}", table.comparisons());
-    }
+    print!("{}", table.comparisons());
     match &args.csv {
         Some(path) => std::fs::write(path, table.csv()).map_err(Error::file(path)),
         None => Ok(()),
@@ -103,32 +109,33 @@ fn measure(
     table: &mut Table,
 ) -> Result<()> {
     let mut summaries = vec![Summary::default(); args.methods.len()];
-    let mut pairs = vec![Paired::default(); args.methods.len()];
+    let mut pairs = vec![Paired::default(); args.methods.len().saturating_sub(1)];
     for (instance, optimum) in instances.iter().zip(known) {
         let Some(best) = optimum.objective else { continue };
         // By method, then by seed.
         let mut gaps = vec![Vec::new(); args.methods.len()];
-        for seed in (args.seed..).take(args.seeds.into()) {
+        for i in 0..args.seeds {
+            let seed = args.seed.wrapping_add(i.into());
             let mut before: Option<Run> = None;
-            for (i, method) in args.methods.iter().enumerate() {
+            for (m, method) in args.methods.iter().enumerate() {
                 let as_long_s = before.map_or(0.0, |run| run.seconds);
                 let run = method
                     .run(instance, network, seed, args.limit_s, as_long_s)
                     .map_err(|e| Error::Scenario(e.to_string()))?;
-                gaps[i].push(summaries[i].add(&run, best));
+                gaps[m].push(summaries[m].add(&run, best));
                 before = Some(run);
             }
         }
-        let last = gaps.last().cloned().unwrap_or_default();
-        for (gaps, paired) in gaps.into_iter().zip(&mut pairs) {
-            paired.add(gaps.into_iter().zip(last.iter().copied()));
+        let Some((last, others)) = gaps.split_last() else { continue };
+        for (other, paired) in others.iter().zip(&mut pairs) {
+            paired.add(other.iter().copied().zip(last.iter().copied()));
         }
     }
     let cell = cell.to_string();
-    let last = args.methods.last().map_or_else(String::new, Method::to_string);
-    pairs.pop();
-    for (method, paired) in args.methods.iter().zip(pairs) {
-        table.compare(&cell, &format!("{method} - {last}"), paired);
+    if let Some((last, others)) = args.methods.split_last().filter(|_| args.paired) {
+        for (other, paired) in others.iter().zip(pairs) {
+            table.compare(&cell, &format!("{other} - {last}"), paired);
+        }
     }
     for (method, summary) in args.methods.iter().zip(summaries) {
         table.push(&cell, &method.to_string(), known, summary);

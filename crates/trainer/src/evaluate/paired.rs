@@ -60,6 +60,7 @@ impl Paired {
     }
 }
 
-fn mean(values: &[f64]) -> f64 {
+/// 0 of none.
+pub(super) fn mean(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.len().max(1) as f64
 }

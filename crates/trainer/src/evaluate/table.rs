@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use voltour_solver::gap::to_best;
 
+use super::paired::mean;
 use super::{Optimum, Paired, Run};
 
 /// One method in one cell.
@@ -35,7 +36,7 @@ impl Summary {
 
     /// Mean gap of the scenarios solved, as a share.
     pub fn mean_gap(&self) -> f64 {
-        self.gaps.iter().sum::<f64>() / self.gaps.len().max(1) as f64
+        mean(&self.gaps)
     }
 
     /// Share of the feasible scenarios that were solved.
@@ -149,7 +150,7 @@ impl Table {
                 methods.push(method);
             }
         }
-        let mean = |method| {
+        let of_cells = |method| {
             let rows: Vec<&Summary> =
                 self.rows.iter().filter(|row| row.1 == method).map(|row| &row.3).collect();
             let mut all = Summary::default();
@@ -160,9 +161,9 @@ impl Table {
                 all.roll_outs += row.roll_outs;
                 all.valued += row.valued;
             }
-            let gap = rows.iter().map(|row| row.mean_gap()).sum::<f64>() / rows.len().max(1) as f64;
-            (method, all, gap)
+            let gaps: Vec<f64> = rows.iter().map(|row| row.mean_gap()).collect();
+            (method, all, mean(&gaps))
         };
-        methods.into_iter().map(mean).collect()
+        methods.into_iter().map(of_cells).collect()
     }
 }

@@ -46,7 +46,7 @@ pub struct First {
 }
 
 impl First {
-    /// From a start on. In a share, until the search is over, that does what the baseline alone would do.
+    /// The search from a tour `start` on. Until it is over, a share does what the baseline alone would do.
     pub fn of(effort: Effort, instance: &Instance<'_>, start: &[u32]) -> Self {
         let part = |iterations| Self { iterations, whole: false };
         if effort == Effort::Whole {
